@@ -1,0 +1,6 @@
+//! What a camera would really see when things move near the speed of light.
+pub mod error;
+pub mod import;
+pub mod mesh;
+pub mod spacetime;
+pub mod texture;
