@@ -3,7 +3,7 @@
 //! Texels are kept in the width of the file (8 or 16 bits or float) and decoded when they are looked up.
 //! All values that leave this module are linear: sRGB is decoded here and nowhere else.
 
-use glam::{DAffine2, DVec2};
+use glam::DAffine2;
 use std::fmt;
 use std::sync::Arc;
 
