@@ -1,6 +1,8 @@
 //! What a camera would really see when things move near the speed of light.
+pub mod color;
 pub mod error;
 pub mod import;
 pub mod mesh;
 pub mod spacetime;
+pub mod spectrum;
 pub mod texture;

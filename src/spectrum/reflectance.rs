@@ -1,0 +1,64 @@
+//! Reflectances: what part of the light a surface throws back, at any wavelength.
+
+use super::{Table, rows};
+use std::sync::LazyLock;
+
+/// The part of the light thrown back, by wavelength in the surface's own rest frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reflectance {
+    /// The same at all wavelengths.
+    Constant(f64),
+    /// From a colour in linear sRGB, each channel 0 to 1: `r R(λ) + g G(λ) + b B(λ)`.
+    ///
+    /// The three curves are the smoothest that add up to 1 and that have the colours of the sRGB primaries under
+    /// D65. Being linear it commutes with texture filters, and white is exactly 1. Beyond 380 to 780 nm, where
+    /// a colour says nothing, the reflectance is the mean of the three channels.
+    /// Source: Mallett and Yuksel, EGSR 2019 (curves solved anew, with their ends set to 1/3).
+    Rgb([f64; 3]),
+    /// Measured; its ends go on.
+    Table(Table),
+}
+
+/// First wavelength of the primaries' curves, nm, and the step between their rows.
+const FIRST_NM: f64 = 380.0;
+const STEP_NM: f64 = 5.0;
+const ROWS: usize = 81;
+
+static PRIMARIES: LazyLock<[[f64; 4]; ROWS]> = LazyLock::new(|| {
+    let rows = rows::<4>(include_str!("primaries.csv"));
+    std::array::from_fn(|i| [rows[i][1], rows[i][2], rows[i][3], 0.0])
+});
+
+impl Reflectance {
+    /// At one wavelength, nm in the surface's rest frame.
+    pub fn at(&self, wavelength_nm: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Rgb(rgb) => rgb_at(&PRIMARIES, *rgb, wavelength_nm),
+            Self::Table(table) => table.at(wavelength_nm),
+        }
+    }
+
+    /// At many wavelengths at once.
+    #[inline]
+    pub fn at_each<const N: usize>(&self, wavelengths_nm: &[f64; N]) -> [f64; N] {
+        match self {
+            Self::Constant(value) => [*value; N],
+            Self::Rgb(rgb) => {
+                let primaries = &*PRIMARIES;
+                wavelengths_nm.map(|nm| rgb_at(primaries, *rgb, nm))
+            }
+            Self::Table(table) => wavelengths_nm.map(|nm| table.at(nm)),
+        }
+    }
+}
+
+#[inline]
+fn rgb_at(primaries: &[[f64; 4]; ROWS], rgb: [f64; 3], wavelength_nm: f64) -> f64 {
+    let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, (ROWS - 1) as f64);
+    let row = (place as usize).min(ROWS - 2);
+    let part = place - row as f64;
+    let (a, b) = (&primaries[row], &primaries[row + 1]);
+    let curve = |j: usize| a[j] + part * (b[j] - a[j]);
+    rgb[0] * curve(0) + rgb[1] * curve(1) + rgb[2] * curve(2)
+}

@@ -1,0 +1,78 @@
+//! Tabulated spectra, and the CIE daylight that the program holds.
+
+use super::planck;
+use std::sync::LazyLock;
+
+/// Values at wavelengths, linear in between and holding their ends beyond.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    nm: Vec<f64>,
+    value: Vec<f64>,
+}
+
+impl Table {
+    /// From rows of increasing wavelength (nm); none if there are fewer than two, if they don't increase, or
+    /// if a number is not finite.
+    pub fn new(rows: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+        let (nm, value): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
+        let fine = nm.len() >= 2
+            && nm.windows(2).all(|pair| pair[0] < pair[1])
+            && nm.iter().chain(&value).all(|v| v.is_finite());
+        fine.then_some(Self { nm, value })
+    }
+
+    /// The value at a wavelength in nm; beyond the ends the end value.
+    pub fn at(&self, wavelength_nm: f64) -> f64 {
+        let after = self.nm.partition_point(|nm| *nm <= wavelength_nm).clamp(1, self.nm.len() - 1);
+        let (a, b) = (self.nm[after - 1], self.nm[after]);
+        let part = ((wavelength_nm - a) / (b - a)).clamp(0.0, 1.0);
+        self.value[after - 1] + part * (self.value[after] - self.value[after - 1])
+    }
+
+    /// First and last wavelength, nm.
+    pub fn range(&self) -> (f64, f64) {
+        (self.nm[0], self.nm[self.nm.len() - 1])
+    }
+}
+
+/// The numbers of a table held by the program: lines of `N` numbers between commas.
+pub fn rows<const N: usize>(text: &str) -> Vec<[f64; N]> {
+    let row = |line: &str| {
+        let mut numbers = line.split(',').map(|number| number.trim().parse().unwrap_or(f64::NAN));
+        std::array::from_fn(|_| numbers.next().unwrap_or(f64::NAN))
+    };
+    text.lines().filter(|line| !line.is_empty()).map(row).collect()
+}
+
+/// CIE standard illuminant D65, 100 at 560 nm.
+///
+/// 300 to 830 nm from CIE 15:2018, 5 nm, linear in between. Beyond, where the CIE says nothing and a Doppler shift
+/// may ask, it goes on as a black body of 6504 K that meets the table's ends.
+#[derive(Debug)]
+pub struct Daylight {
+    table: Vec<f64>,
+    below: f64,
+    above: f64,
+}
+
+/// See [`Daylight`].
+pub static D65: LazyLock<Daylight> = LazyLock::new(|| {
+    let table: Vec<f64> = rows::<2>(include_str!("d65.csv")).iter().map(|row| row[1]).collect();
+    let (first, last) = (table[0], table[table.len() - 1]);
+    Daylight { below: first / planck(300.0, 6504.0), above: last / planck(830.0, 6504.0), table }
+});
+
+impl Daylight {
+    /// Relative spectral power at a wavelength in nm.
+    pub fn at(&self, wavelength_nm: f64) -> f64 {
+        if wavelength_nm < 300.0 {
+            return self.below * planck(wavelength_nm, 6504.0);
+        }
+        if wavelength_nm > 830.0 {
+            return self.above * planck(wavelength_nm, 6504.0);
+        }
+        let place = (wavelength_nm - 300.0) / 5.0;
+        let row = (place as usize).min(self.table.len() - 2);
+        self.table[row] + (place - row as f64) * (self.table[row + 1] - self.table[row])
+    }
+}
