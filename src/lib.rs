@@ -2,7 +2,13 @@
 pub mod color;
 pub mod error;
 pub mod import;
+pub mod lamp;
 pub mod mesh;
 pub mod spacetime;
 pub mod spectrum;
+pub mod surface;
 pub mod texture;
+pub mod trace;
+pub mod tree;
+pub mod triangles;
+pub mod world;

@@ -86,3 +86,10 @@ pub struct Texture {
     /// Applied to the texture coordinates first (`KHR_texture_transform`, or OBJ's `-o` and `-s`).
     pub transform: DAffine2,
 }
+
+impl Texture {
+    /// tmp
+    pub fn rgba(&self, _uv: glam::DVec2) -> [f32; 4] {
+        [1.0; 4]
+    }
+}

@@ -12,11 +12,13 @@ mod boost;
 mod event;
 mod ray;
 mod velocity;
+mod worldline;
 
 pub use boost::{Boost, Lorentz, Poincare};
 pub use event::{Event, FourVector};
 pub use ray::{Doppler, SightRay};
 pub use velocity::{NotSlowerThanLight, Velocity};
+pub use worldline::{Circle, Course, Tetrad, Worldline, looking_along};
 
 use std::fmt::Debug;
 

@@ -1,0 +1,349 @@
+//! A tree of boxes in one space: built by obvhs, walked here.
+//!
+//! Boxes are `f32` in units of the tree's own size, so that 1e-6 m and 1e6 m are the same to it; they are
+//! padded by more than all rounding of a walk, and what they hold is tested by the caller in `f64`. A line that
+//! meets an item's box is therefore never lost. (obvhs's own walk clamps small direction components and
+//! misses, so it only builds.)
+
+use glam::{DVec3, Vec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::{BvhBuildParams, bvh2::builder::build_bvh2};
+use std::time::Duration;
+
+/// Half the widening of each box, in units in which the whole tree lies within [-1, 1].
+///
+/// A walk rounds its start (6e-8), its direction (6e-8 over a length up to 3.5) and the box corners (6e-8).
+const PAD: f32 = 1e-6;
+
+/// The points `origin + s step`, s > 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// Where s is zero.
+    pub origin: DVec3,
+    /// What one unit of s moves.
+    pub step: DVec3,
+}
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub lo: DVec3,
+    /// Largest coordinates.
+    pub hi: DVec3,
+}
+
+impl Bounds {
+    /// Of no point.
+    pub const EMPTY: Self = Self { lo: DVec3::INFINITY, hi: DVec3::NEG_INFINITY };
+
+    /// The smallest that holds all the points.
+    pub fn of(points: impl IntoIterator<Item = DVec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self { lo: b.lo.min(p), hi: b.hi.max(p) })
+    }
+
+    /// The smallest that holds both.
+    pub fn with(self, other: Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    /// The eight corners.
+    pub fn corners(self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let pick = |axis: usize| if i >> axis & 1 == 0 { self.lo[axis] } else { self.hi[axis] };
+            DVec3::new(pick(0), pick(1), pick(2))
+        })
+    }
+
+    /// Where the line is inside, as a stretch of s (which may be empty: first > last).
+    fn stretch(self, line: &Line) -> (f64, f64) {
+        let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (o, d) = (line.origin[axis], line.step[axis]);
+            if d == 0.0 {
+                if o < self.lo[axis] || o > self.hi[axis] {
+                    return (f64::INFINITY, f64::NEG_INFINITY);
+                }
+                continue;
+            }
+            let (a, b) = ((self.lo[axis] - o) / d, (self.hi[axis] - o) / d);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+        (first, last)
+    }
+}
+
+/// Two children: their boxes, and where they go on.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    lo: [Vec3; 2],
+    hi: [Vec3; 2],
+    // An inner child: its index in `nodes`. A leaf: its first place in `items`.
+    first: [u32; 2],
+    // Items of a leaf; zero for an inner child.
+    count: [u32; 2],
+}
+
+/// A tree over items known by number and box.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    bounds: Bounds,
+    centre: DVec3,
+    scale: f64,
+    nodes: Vec<Node>,
+    items: Vec<u32>,
+}
+
+struct Boxed(Aabb);
+
+impl obvhs::Boundable for Boxed {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+impl Tree {
+    /// Over items with these boxes, which must be finite.
+    pub fn build(boxes: &[Bounds]) -> Self {
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |a, b| a.with(*b));
+        if boxes.is_empty() {
+            return Self { bounds, centre: DVec3::ZERO, scale: 1.0, nodes: Vec::new(), items: Vec::new() };
+        }
+        let centre = 0.5 * bounds.lo + 0.5 * bounds.hi;
+        let half = (bounds.hi - centre).max_element();
+        // A single point still has a size: that of the rounding at its place.
+        let half = half.max(centre.abs().max_element() * 1e-12).max(1e-200);
+        let scale = 1.0 / half;
+        let unit: Vec<(Vec3, Vec3)> = boxes
+            .iter()
+            .map(|b| {
+                let lo = ((b.lo - centre) * scale).as_vec3() - PAD;
+                (lo, ((b.hi - centre) * scale).as_vec3() + PAD)
+            })
+            .collect();
+        let groups = Groups::of_equal(&unit);
+        let boxed: Vec<Boxed> =
+            groups.first.iter().map(|&i| unit[i as usize]).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
+        let mut seconds = Duration::ZERO;
+        let built = build_bvh2(&boxed, BvhBuildParams::medium_build(), &mut seconds);
+        let mut tree = Self { bounds, centre, scale, nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
+        tree.adopt(&built, &groups);
+        tree
+    }
+
+    /// The box of all items.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Takes over obvhs's nodes, children's boxes moved into their parents, with an explicit stack (a degenerate
+    /// tree may be as deep as it has items).
+    fn adopt(&mut self, built: &obvhs::bvh2::Bvh2, groups: &Groups) {
+        let nothing = Node { lo: [Vec3::MAX; 2], hi: [Vec3::MIN; 2], first: [0; 2], count: [0; 2] };
+        self.nodes.push(nothing);
+        // (obvhs's node, our parent, which child of it)
+        let mut open = vec![(0_usize, 0_usize, 0_usize)];
+        while let Some((source, parent, side)) = open.pop() {
+            let node = &built.nodes[source];
+            let begin = node.first_index as usize;
+            let (first, count) = if node.prim_count > 0 {
+                let first = self.items.len() as u32;
+                for place in begin..begin + node.prim_count as usize {
+                    self.items.extend_from_slice(groups.members(built.primitive_indices[place]));
+                }
+                (first, self.items.len() as u32 - first)
+            } else {
+                let own = self.nodes.len();
+                self.nodes.push(nothing);
+                open.push((begin + 1, own, 1));
+                open.push((begin, own, 0));
+                (own as u32, 0)
+            };
+            let slot = &mut self.nodes[parent];
+            slot.lo[side] = node.aabb.min.into();
+            slot.hi[side] = node.aabb.max.into();
+            slot.first[side] = first;
+            slot.count[side] = count;
+        }
+    }
+
+    /// Calls `visit` with every item whose box the line may meet at 0 < s < `s_max`, roughly by growing s.
+    ///
+    /// `visit` gets the limit so far and returns the new one; a negative one ends the walk. Returns the last limit.
+    #[inline]
+    pub fn walk(&self, line: &Line, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
+        let Some(mut walk) = self.enter(line, s_max) else { return s_max };
+        let mut limit = s_max;
+        let mut stack = Stack::new();
+        let mut at = 0_u32;
+        loop {
+            let node = &self.nodes[at as usize];
+            let near = [0, 1].map(|side| walk.entry(node.lo[side], node.hi[side]));
+            let order = if near[1] < near[0] { [1, 0] } else { [0, 1] };
+            let mut next = None;
+            for side in order {
+                if near[side] > walk.t_max {
+                    continue;
+                }
+                if node.count[side] == 0 {
+                    if next.is_none() {
+                        next = Some(node.first[side]);
+                    } else {
+                        stack.push(near[side], node.first[side]);
+                    }
+                    continue;
+                }
+                let begin = node.first[side] as usize;
+                for &item in &self.items[begin..begin + node.count[side] as usize] {
+                    limit = visit(item, limit);
+                }
+                if limit < 0.0 {
+                    return limit;
+                }
+                walk.limit(limit);
+            }
+            at = match next {
+                Some(next) => next,
+                None => match stack.pop(walk.t_max) {
+                    Some(next) => next,
+                    None => return limit,
+                },
+            };
+        }
+    }
+
+    /// Moves the start to the box in `f64`, and only then goes to `f32`.
+    #[inline]
+    fn enter(&self, line: &Line, s_max: f64) -> Option<Walk> {
+        if self.nodes.is_empty() {
+            return None;
+        }
+        let pad = f64::from(4.0 * PAD) / self.scale;
+        let padded = Bounds { lo: self.bounds.lo - pad, hi: self.bounds.hi + pad };
+        let (first, last) = padded.stretch(line);
+        let first = first.max(0.0);
+        if first > last || first >= s_max {
+            return None;
+        }
+        let step = line.step * self.scale;
+        let length = step.length();
+        let start = ((line.origin - self.centre) * self.scale + step * first).as_vec3();
+        let direction = step / length;
+        // Below 1e-12 a component moves nothing across the tree: its inverse is kept finite.
+        let inverse = |d: f64| (1.0 / if d.abs() < 1e-12 { 1e-12_f64.copysign(d) } else { d }) as f32;
+        let inverse = Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z));
+        let mut walk = Walk { start, inverse, first, length, t_max: f32::MAX };
+        walk.limit(s_max);
+        length.is_finite().then_some(walk)
+    }
+}
+
+/// A line inside a tree: from the start with unit speed.
+struct Walk {
+    start: Vec3,
+    inverse: Vec3,
+    first: f64,
+    length: f64,
+    t_max: f32,
+}
+
+impl Walk {
+    /// Where the line enters a box; infinite if it does not.
+    #[inline]
+    fn entry(&self, lo: Vec3, hi: Vec3) -> f32 {
+        let a = (lo - self.start) * self.inverse;
+        let b = (hi - self.start) * self.inverse;
+        let (near, far) = (a.min(b), a.max(b));
+        let enter = near.x.max(near.y).max(near.z.max(0.0));
+        let leave = far.x.min(far.y).min(far.z);
+        // Ize 2013: two roundings of the far distance.
+        if enter <= leave * 1.000_001 { enter } else { f32::INFINITY }
+    }
+
+    #[inline]
+    fn limit(&mut self, s_max: f64) {
+        self.t_max = ((s_max - self.first) * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
+    }
+}
+
+/// Nodes still to be visited, with their entries; on the heap only in very deep trees.
+struct Stack {
+    top: usize,
+    fixed: [(f32, u32); 64],
+    spill: Vec<(f32, u32)>,
+}
+
+impl Stack {
+    #[inline]
+    fn new() -> Self {
+        Self { top: 0, fixed: [(0.0, 0); 64], spill: Vec::new() }
+    }
+
+    #[inline]
+    fn push(&mut self, entry: f32, node: u32) {
+        if self.top < self.fixed.len() {
+            self.fixed[self.top] = (entry, node);
+            self.top += 1;
+        } else {
+            self.spill.push((entry, node));
+        }
+    }
+
+    /// The last pushed node that is entered before the limit.
+    #[inline]
+    fn pop(&mut self, t_max: f32) -> Option<u32> {
+        while let Some((entry, node)) = self.spill.pop() {
+            if entry <= t_max {
+                return Some(node);
+            }
+        }
+        while self.top > 0 {
+            self.top -= 1;
+            let (entry, node) = self.fixed[self.top];
+            if entry <= t_max {
+                return Some(node);
+            }
+        }
+        None
+    }
+}
+
+fn aabb(lo: Vec3, hi: Vec3) -> Aabb {
+    Aabb::new(Vec3A::from(lo), Vec3A::from(hi))
+}
+
+/// Items with the same box, told once to the builder: it takes quadratic time over equal boxes.
+struct Groups {
+    order: Vec<u32>,
+    // Where each group begins in `order`, and the end.
+    begin: Vec<u32>,
+    // One member of each group.
+    first: Vec<u32>,
+}
+
+impl Groups {
+    fn of_equal(boxes: &[(Vec3, Vec3)]) -> Self {
+        use rayon::slice::ParallelSliceMut;
+        let key = |i: u32| {
+            let (lo, hi) = boxes[i as usize];
+            [lo.x, lo.y, lo.z, hi.x, hi.y, hi.z].map(f32::to_bits)
+        };
+        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+        order.par_sort_unstable_by_key(|&i| (key(i), i));
+        let mut begin = Vec::new();
+        for place in 0..order.len() {
+            if place == 0 || key(order[place]) != key(order[place - 1]) {
+                begin.push(place as u32);
+            }
+        }
+        let first = begin.iter().map(|&place| order[place as usize]).collect();
+        begin.push(order.len() as u32);
+        Self { order, begin, first }
+    }
+
+    fn members(&self, group: u32) -> &[u32] {
+        let group = group as usize;
+        &self.order[self.begin[group] as usize..self.begin[group + 1] as usize]
+    }
+}

@@ -1,0 +1,124 @@
+//! A mesh with its tree: where a line meets it.
+
+use crate::mesh::Mesh;
+use crate::tree::{Bounds, Line, Tree};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Where a line meets a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// The number of the triangle.
+    pub triangle: u32,
+    /// Parameter of the line.
+    pub s: f64,
+    /// Weights of the second and the third corner.
+    pub weights: (f64, f64),
+}
+
+/// A mesh and the tree over its triangles, both in the mesh's own coordinates; built once, shared by all instances.
+#[derive(Debug, Clone)]
+pub struct Triangles {
+    /// The triangles.
+    pub mesh: Arc<Mesh>,
+    tree: Tree,
+}
+
+impl Triangles {
+    /// Builds the tree.
+    pub fn new(mesh: Arc<Mesh>) -> Self {
+        let boxes: Vec<Bounds> =
+            mesh.triangles.iter().map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3()))).collect();
+        Self { tree: Tree::build(&boxes), mesh }
+    }
+
+    /// The box of all triangles.
+    pub fn bounds(&self) -> Bounds {
+        self.tree.bounds()
+    }
+
+    /// Corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.mesh.triangles[triangle as usize].map(|i| self.mesh.positions[i as usize].as_dvec3())
+    }
+
+    /// The first meeting at 0 < s < `s_max`.
+    pub fn nearest(&self, line: &Line, s_max: f64) -> Option<Meeting> {
+        let sheared = Sheared::new(line);
+        let mut nearest = None;
+        self.tree.walk(line, s_max, |triangle, limit| match self.meet(&sheared, triangle, limit) {
+            Some(meeting) => {
+                nearest = Some(meeting);
+                meeting.s
+            }
+            None => limit,
+        });
+        nearest
+    }
+
+    /// Whether there is any meeting at 0 < s < `s_max`.
+    pub fn any(&self, line: &Line, s_max: f64) -> bool {
+        let sheared = Sheared::new(line);
+        let met = |triangle, limit| if self.meet(&sheared, triangle, limit).is_some() { -1.0 } else { limit };
+        self.tree.walk(line, s_max, met) < 0.0
+    }
+
+    #[inline]
+    fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
+        let (s, weights) = line.meet(self.corners(triangle))?;
+        (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
+    }
+}
+
+/// A line with the shear that turns it into the z axis: the triangle test is then one in the plane, and an edge
+/// gives both its triangles the same numbers, so that no line passes between them.
+///
+/// Source: Woop, Benthin and Wald, JCGT 2(1), 2013; here in f64 throughout.
+struct Sheared {
+    origin: DVec3,
+    // The axis along which the line moves most, and the two others.
+    axes: [usize; 3],
+    shear: DVec3,
+}
+
+impl Sheared {
+    #[inline]
+    fn new(line: &Line) -> Self {
+        let size = line.step.abs();
+        let z = if size.x > size.y {
+            if size.x > size.z { 0 } else { 2 }
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
+        if line.step[z] < 0.0 {
+            std::mem::swap(&mut x, &mut y);
+        }
+        let along = line.step[z];
+        let shear = DVec3::new(line.step[x] / along, line.step[y] / along, 1.0 / along);
+        Self { origin: line.origin, axes: [x, y, z], shear }
+    }
+
+    /// Parameter s and the weights of the second and the third corner.
+    #[inline]
+    fn meet(&self, corners: [DVec3; 3]) -> Option<(f64, (f64, f64))> {
+        let [x, y, z] = self.axes;
+        let flat = corners.map(|corner| {
+            let p = corner - self.origin;
+            DVec3::new(p[x] - self.shear.x * p[z], p[y] - self.shear.y * p[z], p[z])
+        });
+        let edge = |a: DVec3, b: DVec3| a.x * b.y - a.y * b.x;
+        let (u, v, w) = (edge(flat[2], flat[1]), edge(flat[0], flat[2]), edge(flat[1], flat[0]));
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let sum = u + v + w;
+        if sum == 0.0 {
+            return None;
+        }
+        let depth = u * flat[0].z + v * flat[1].z + w * flat[2].z;
+        Some((depth * self.shear.z / sum, (v / sum, w / sum)))
+    }
+}
