@@ -1,0 +1,79 @@
+//! One picture: from sight rays to a negative.
+
+use crate::film::{Negative, Reconstruction};
+use crate::observer::View;
+use crate::scene::Scene;
+use crate::spectrum::Wavelengths;
+use crate::trace::First;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// How finely a picture is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampling {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Samples per pixel; one is the pixel's centre.
+    pub samples: u32,
+    /// The filter over them.
+    pub reconstruction: Reconstruction,
+    /// Wavelengths per sample: 8, 16, 32 or 64.
+    pub wavelengths: u32,
+}
+
+/// Rows that one task of the pool takes: small enough to share out, large enough to keep rays together.
+const ROWS_PER_TASK: usize = 4;
+
+/// Exposes a picture. The same bytes on any number of threads.
+pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
+    match sampling.wavelengths {
+        0..=8 => expose_with::<8>(scene, view, sampling),
+        9..=16 => expose_with::<16>(scene, view, sampling),
+        17..=32 => expose_with::<32>(scene, view, sampling),
+        _ => expose_with::<64>(scene, view, sampling),
+    }
+}
+
+fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
+    let lit = scene.lit();
+    let wavelengths = Wavelengths::<N>::new();
+    let offsets = sampling.reconstruction.offsets(sampling.samples);
+    let share = 1.0 / f64::from(sampling.samples);
+    let expose_pixel = |column: usize, row: usize| {
+        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let mut radiance = [0.0; N];
+        let mut lines = DVec3::ZERO;
+        for offset in &offsets {
+            let light = lit.seen(&view.ray(centre + *offset), &wavelengths);
+            for (sum, value) in radiance.iter_mut().zip(light.radiance) {
+                *sum += value;
+            }
+            lines += light.lines;
+        }
+        ((wavelengths.xyz(&radiance) + lines) * share).as_vec3().to_array()
+    };
+    let xyz = by_pixel(sampling.width, sampling.height, expose_pixel);
+    Negative { width: sampling.width, height: sampling.height, xyz }
+}
+
+/// What stands first in the way at each pixel's centre.
+pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
+    let lit = scene.lit();
+    let first =
+        |column: usize, row: usize| lit.first(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)));
+    by_pixel(width, height, first)
+}
+
+fn by_pixel<T: Send + Clone>(width: u32, height: u32, of: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
+    let (width, height) = (width as usize, height as usize);
+    let bands: Vec<Vec<T>> = (0..height.div_ceil(ROWS_PER_TASK))
+        .into_par_iter()
+        .map(|band| {
+            let rows = band * ROWS_PER_TASK..((band + 1) * ROWS_PER_TASK).min(height);
+            rows.flat_map(|row| (0..width).map(move |column| (column, row))).map(|(c, r)| of(c, r)).collect()
+        })
+        .collect();
+    bands.concat()
+}

@@ -1,0 +1,113 @@
+//! The observer's camera: where it is, where it looks, and the sight ray of each place in the picture.
+
+use crate::spacetime::{
+    Boost, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Worldline, looking_along,
+};
+use glam::{DQuat, DVec2, DVec3};
+
+/// What a camera looks at.
+#[derive(Debug, Clone, Copy)]
+pub enum Aim {
+    /// A direction in the axes that the observer carries.
+    Along(DVec3),
+    /// The apparent place of something at rest in a frame: where its light, arriving now, comes from.
+    At {
+        /// Into the target's rest frame.
+        rest_from_lab: Poincare<Rest, Lab>,
+        /// Where it is there.
+        place: DVec3,
+    },
+}
+
+/// An observer with a pinhole camera.
+#[derive(Debug, Clone)]
+pub struct Observer {
+    /// Its motion.
+    pub worldline: Worldline,
+    /// Where the camera looks.
+    pub aim: Aim,
+    /// What is up in the picture, in the axes that the observer carries.
+    pub up: DVec3,
+    /// Across the picture's width, radians.
+    pub field_of_view: f64,
+    /// With aberration switched off: the velocity of all bodies and the turn of the observer's axes. Directions are
+    /// then those of a camera at the same event that stands still beside the bodies.
+    pub unaberrated: Option<Unaberrated>,
+}
+
+/// What directions refer to when aberration is switched off.
+#[derive(Debug, Clone, Copy)]
+pub struct Unaberrated {
+    /// Into the frame in which all bodies rest.
+    pub rest_from_lab: Boost<Rest, Lab>,
+    /// Turn of the observer's axes.
+    pub rotation: DQuat,
+}
+
+/// The camera at one moment.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    /// The observer with the camera's axes: x right, y up, z backward.
+    pub tetrad: Tetrad,
+    // The observer's true four-velocity, where the tetrad's is not.
+    seer: Option<FourVector>,
+    // Half the width of the picture at distance 1, and the picture's size in pixels.
+    half_width: f64,
+    size: DVec2,
+}
+
+impl Observer {
+    /// The camera at proper time `tau`, for a picture of `width` by `height` pixels.
+    pub fn view(&self, tau: f64, width: u32, height: u32) -> View {
+        let carried = self.worldline.at(tau);
+        let axes = match self.unaberrated {
+            Some(Unaberrated { rest_from_lab, rotation }) => Tetrad {
+                event: carried.event,
+                lab_from_camera: Lorentz::from(rest_from_lab.inverse()) * Lorentz::rotation(rotation),
+            },
+            None => carried,
+        };
+        let forward = match self.aim {
+            Aim::Along(direction) => direction,
+            Aim::At { rest_from_lab, place } => {
+                let toward = place - (rest_from_lab * axes.event).x;
+                let light = FourVector::<Rest>::new(toward.length(), -toward);
+                let seen = axes.direction_of(rest_from_lab.boost().inverse() * light);
+                if seen.is_finite() { seen } else { DVec3::NEG_Z }
+            }
+        };
+        View {
+            tetrad: axes.turned(looking_along(forward, self.up)),
+            seer: self.unaberrated.map(|_| carried.velocity()),
+            half_width: libm::tan(0.5 * self.field_of_view),
+            size: DVec2::new(f64::from(width), f64::from(height)),
+        }
+    }
+}
+
+impl View {
+    /// The unit direction, in the camera's axes, of a place in the picture: pixels from the upper left corner.
+    pub fn direction(&self, pixel: DVec2) -> DVec3 {
+        let from_centre = (pixel - 0.5 * self.size) * (2.0 * self.half_width / self.size.x);
+        let direction = DVec3::new(from_centre.x, -from_centre.y, -1.0);
+        direction / direction.length()
+    }
+
+    /// The sight ray of a place in the picture, k·u = 1.
+    pub fn ray(&self, pixel: DVec2) -> SightRay {
+        let ray = self.tetrad.sight_ray(self.direction(pixel));
+        match self.seer {
+            Some(seer) => SightRay { k: ray.k * (1.0 / ray.k.dot(seer)), ..ray },
+            None => ray,
+        }
+    }
+
+    /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.
+    pub fn pixel_of(&self, k: FourVector) -> Option<DVec2> {
+        let direction = self.tetrad.direction_of(k);
+        (direction.z < 0.0).then(|| {
+            let on_plane = DVec2::new(direction.x, -direction.y) / -direction.z;
+            on_plane * (self.size.x / (2.0 * self.half_width)) + 0.5 * self.size
+        })
+    }
+}

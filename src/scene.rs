@@ -1,0 +1,99 @@
+//! The scene as meant: bodies in their rest frames, surfaces, lamps, the observer. Immutable once built.
+
+use crate::lamp::Lamp;
+use crate::observer::Observer;
+use crate::spacetime::{Event, Poincare, Velocity};
+use crate::spectrum::Source;
+use crate::surface::Surface;
+use crate::trace::{Effects, Lit};
+use crate::triangles::Triangles;
+use crate::world::{Placed, RestFrame, World};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
+
+/// Everything that is seen, and who sees it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The bodies, grouped by rest frame.
+    pub world: World,
+    /// Surfaces, by the numbers that the world's meshes carry.
+    pub surfaces: Vec<Surface>,
+    /// Lamps.
+    pub lamps: Vec<Lamp>,
+    /// Radiance that fills each body's rest frame alike from all sides.
+    pub ambient: Option<Source>,
+    /// Which effects are shown.
+    pub effects: Effects,
+    /// How many mirrors one after another are followed.
+    pub depth: u32,
+    /// The camera.
+    pub observer: Observer,
+}
+
+impl Scene {
+    /// The scene as the light loop takes it.
+    pub fn lit(&self) -> Lit<'_> {
+        Lit {
+            world: &self.world,
+            surfaces: &self.surfaces,
+            lamps: &self.lamps,
+            ambient: self.ambient.as_ref(),
+            effects: self.effects,
+            depth: self.depth,
+        }
+    }
+}
+
+/// Where a body is: the event at which its own clock reads zero, and its velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// Its origin, at its own time zero.
+    pub origin: Event,
+    /// Its velocity in the lab; its axes are the pure boost of the lab's.
+    pub velocity: Velocity,
+}
+
+impl Placement {
+    /// Into the body's rest frame, its origin at the body's.
+    pub fn rest_from_lab<F: crate::spacetime::Frame>(&self) -> Poincare<F> {
+        Poincare::to_moving(self.velocity, self.origin)
+    }
+}
+
+/// Gathers bodies into rest frames: those with the same velocity share one.
+#[derive(Debug, Default)]
+pub struct WorldBuilder {
+    frames: Vec<(Placement, Vec<Placed>)>,
+}
+
+impl WorldBuilder {
+    /// Adds a mesh of a body. A singular map adds nothing.
+    pub fn add(
+        &mut self,
+        body: u32,
+        placement: Placement,
+        triangles: &Arc<Triangles>,
+        rest_from_mesh: DAffine3,
+        surfaces: u32,
+    ) {
+        let shared = self.frames.iter().position(|(first, _)| first.velocity == placement.velocity);
+        let index = shared.unwrap_or_else(|| {
+            self.frames.push((placement, Vec::new()));
+            self.frames.len() - 1
+        });
+        let (first, placed) = &mut self.frames[index];
+        // Bodies that share a rest frame differ by where they stand in it (their clocks play no part in meshes at rest).
+        let rest_from_lab: Poincare<crate::spacetime::Rest> = first.rest_from_lab();
+        let shift: DVec3 = (rest_from_lab * placement.origin).x;
+        let rest_from_mesh = DAffine3::from_translation(shift) * rest_from_mesh;
+        placed.extend(Placed::new(triangles.clone(), rest_from_mesh, body, surfaces));
+    }
+
+    /// Builds the trees over the bodies.
+    pub fn build(self) -> World {
+        let rest = |(placement, placed): (Placement, Vec<Placed>)| {
+            RestFrame::new(placement.rest_from_lab(), placed)
+        };
+        World { frames: self.frames.into_iter().map(rest).collect() }
+    }
+}
