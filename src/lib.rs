@@ -2,5 +2,6 @@
 pub mod error;
 pub mod import;
 pub mod mesh;
+pub mod output;
 pub mod spacetime;
 pub mod texture;
