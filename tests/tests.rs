@@ -1,0 +1,5 @@
+//! The laws and requirements that the program is held to.
+
+#[cfg(feature = "video")]
+mod film;
+mod output;
