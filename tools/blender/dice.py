@@ -23,7 +23,7 @@ PIPS = {
 SPACING, RADIUS, DEPTH = 0.24, 0.088, 0.05
 
 
-def pips():
+def pips(materials):
     """Balls that, taken away from the cube, leave the pips: each of them sinks DEPTH into its face."""
     ball = (RADIUS**2 + DEPTH**2) / (2 * DEPTH)
     made = []
@@ -35,7 +35,9 @@ def pips():
             at = n * (0.5 + ball - DEPTH) + SPACING * (i * a + j * b)
             bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=ball, location=tuple(at))
             o = bpy.context.object
-            o.data.materials.append(kit.matte(f"Pip{number}", COLORS[number]) if f"Pip{number}" not in bpy.data.materials else bpy.data.materials[f"Pip{number}"])
+            for m in materials:
+                o.data.materials.append(m)
+            o.data.polygons.foreach_set("material_index", np.full(len(o.data.polygons), number, np.int32))
             made.append(o)
     return kit.join(made, "Pips")
 
@@ -43,9 +45,13 @@ def pips():
 def die():
     """One die."""
     kit.empty_scene()
-    o = kit.bevelled_box("Die", (-0.5,) * 3, (0.5,) * 3, 0.09, 6, kit.matte("Ivory", IVORY))
-    cutter = pips()
-    kit.modify(o, "BOOLEAN", operation="DIFFERENCE", solver="EXACT", object=cutter, material_mode="TRANSFER")
+    materials = [kit.matte("Ivory", IVORY)] + [kit.matte(f"Pip{k}", COLORS[k]) for k in range(1, 7)]
+    o = kit.bevelled_box("Die", (-0.5,) * 3, (0.5,) * 3, 0.09, 6)
+    cutter = pips(materials)
+    for m in materials:
+        o.data.materials.append(m)
+    # The exact solver numbers its vertices differently in each run; this one does not.
+    kit.modify(o, "BOOLEAN", operation="DIFFERENCE", solver="MANIFOLD", object=cutter)
     bpy.data.objects.remove(cutter)
     kit.smooth_by_angle(o, 30)
     kit.modify(o, "WEIGHTED_NORMAL", weight=100, keep_sharp=True)
