@@ -24,8 +24,10 @@ def main():
     corners = np.array([o.matrix_world @ Vector(c) for o in sc.objects if o.type == "MESH" for c in o.bound_box])
     low, high = corners.min(0), corners.max(0)
     print("box in glTF axes:", low[[0, 2]], -high[1], "to", high[[0, 2]], -low[1])
+    for m in bpy.data.materials:  # glTF's luminances beside Blender's watts
+        m.node_tree.nodes["Principled BSDF"].inputs["Emission Strength"].default_value /= 683
     lamps = [o for o in sc.objects if o.type == "LIGHT"]
-    sky(0.35 if not lamps else 0.003)
+    sky(0.35 if not lamps else 0.0005)
     if not lamps:
         sun = kit.place("Sun", bpy.data.lights.new("Sun", "SUN"), turn=(50, 0, 35))
         sun.data.energy = 3
@@ -39,7 +41,7 @@ def main():
     sc.cycles.use_denoising = False
     sc.render.resolution_x, sc.render.resolution_y = 960, 540
     sc.view_settings.view_transform = "Standard" if not lamps else "AgX"
-    sc.view_settings.exposure = 0 if not lamps else 3.5
+    sc.view_settings.exposure = 0 if not lamps else 4.8
     sc.render.filepath = picture
     bpy.ops.render.render(write_still=True)
 

@@ -47,7 +47,7 @@ def mark_eyes(me):
         label[max(a, b)] = min(a, b)
     roots = [root(i) for i in range(len(label))]
     head = max(set(roots), key=roots.count)
-    for name in ("Skin", "Eye"):
+    for name in ("HeadMark", "EyeMark"):
         me.materials.append(bpy.data.materials.new(name))
     for p in me.polygons:
         p.material_index = int(roots[p.vertices[0]] != head)
