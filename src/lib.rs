@@ -1,10 +1,12 @@
 //! What a camera would really see when things move near the speed of light.
 pub mod color;
+pub mod diagnostic;
 pub mod error;
 pub mod exposure;
 pub mod film;
 pub mod import;
 pub mod lamp;
+pub mod manifest;
 pub mod mesh;
 pub mod observer;
 pub mod output;

@@ -2,4 +2,5 @@
 
 #[cfg(feature = "video")]
 mod film;
+mod manifest;
 mod output;
