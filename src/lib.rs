@@ -1,4 +1,5 @@
 //! What a camera would really see when things move near the speed of light.
+pub mod cli;
 pub mod color;
 pub mod diagnostic;
 pub mod error;

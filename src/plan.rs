@@ -1,14 +1,19 @@
 //! What is to be rendered: the exposures of a film, and where they go.
 
 use crate::exposure::Sampling;
-use std::path::PathBuf;
+use crate::film::Reconstruction;
+use crate::manifest::{self, Amount, Clock, Filter, Manifest};
+use crate::scene::Scene;
+use crate::spacetime::Course;
+use crate::spectrum::{Source, Spectrum};
+use std::path::{Path, PathBuf};
 
 /// One picture of a film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exposure {
     /// Its number, from zero.
     pub index: usize,
-    /// The observer's proper time, metres (a ring of observers: turns).
+    /// The observer's proper time, metres (a ring of observers: part of the film).
     pub tau: f64,
 }
 
@@ -39,10 +44,73 @@ pub struct Plan {
     pub exr: bool,
     /// The folder for all files.
     pub folder: PathBuf,
-    /// The film's name in it, without extension.
-    pub name: String,
+    /// The film's file in it.
+    pub film_file: String,
     /// Seconds in a metre of light travel: 1/c of this manifest.
     pub seconds_per_metre: f64,
     /// Written into every picture: what it was made from.
     pub text: Vec<(&'static str, String)>,
+}
+
+impl Plan {
+    /// What a manifest asks for.
+    pub fn of(manifest: &Manifest, scene: &Scene, path: &Path) -> Self {
+        let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
+        let picture = &manifest.picture;
+        let film = manifest.film.as_ref().filter(|film| film.video);
+        let file = film.and_then(|film| film.file.clone()).unwrap_or_else(|| format!("{stem}.mp4"));
+        let version = concat!("terrell ", env!("CARGO_PKG_VERSION"));
+        Self {
+            exposures: exposures(&manifest.exposures, scene),
+            sampling: Sampling {
+                width: picture.size.0,
+                height: picture.size.1,
+                samples: picture.samples,
+                reconstruction: match picture.filter {
+                    Filter::Gaussian => Reconstruction::Gaussian,
+                    Filter::Tent => Reconstruction::Tent,
+                    Filter::Box => Reconstruction::Box,
+                },
+                wavelengths: picture.wavelengths,
+            },
+            white: white(picture),
+            film_rate: film.map(|film| film.rate),
+            exr: manifest.output.exr,
+            folder: manifest.output.folder.clone(),
+            film_file: file,
+            seconds_per_metre: 1.0 / manifest.light_speed,
+            text: vec![("Software", version.to_owned()), ("Source", stem.into_owned())],
+        }
+    }
+}
+
+fn exposures(written: &manifest::Exposures, scene: &Scene) -> Vec<Exposure> {
+    let count = written.count as usize;
+    let worldline = &scene.observer.worldline;
+    let tau = |index: usize| {
+        if matches!(worldline.course(), Course::Ring { .. }) {
+            // Round and round: the last one stands just before the first.
+            return index as f64 / count as f64;
+        }
+        let part = if count > 1 { index as f64 / (count - 1) as f64 } else { 0.0 };
+        let moment = written.from + (written.to - written.from) * part;
+        match written.clock {
+            Clock::Own => moment,
+            Clock::Lab => worldline.tau_at_lab(moment).unwrap_or(moment),
+        }
+    };
+    (0..count).map(|index| Exposure { index, tau: tau(index) }).collect()
+}
+
+fn white(picture: &manifest::Picture) -> White {
+    let gain = libm::exp2(picture.stops);
+    match picture.white {
+        manifest::White::Auto => White::Auto { gain },
+        manifest::White::Luminance(Amount::Photometric(luminance)) => White::Fixed(luminance / gain),
+        // In watts: of daylight.
+        manifest::White::Luminance(Amount::Radiometric(radiance)) => {
+            let daylight = Source::with_total(&Spectrum::DAYLIGHT, radiance);
+            White::Fixed(daylight.map_or(radiance, |daylight| daylight.xyz().y) / gain)
+        }
+    }
 }

@@ -61,7 +61,7 @@ pub fn render(
 /// Where the film goes, if there is to be one: only a whole film is made.
 pub fn film_path(plan: &Plan, exposures: usize) -> Option<PathBuf> {
     let whole = exposures == plan.exposures.len() && exposures > 1;
-    (whole && plan.film_rate.is_some()).then(|| plan.folder.join(format!("{}.mp4", plan.name)))
+    (whole && plan.film_rate.is_some()).then(|| plan.folder.join(&plan.film_file))
 }
 
 fn start(plan: &Plan, path: &std::path::Path) -> Result<Movie, Error> {
@@ -100,7 +100,7 @@ fn file_all(
     }
     if let Some(movie) = movie {
         movie.finish()?;
-        tell(Step::Wrote(plan.folder.join(format!("{}.mp4", plan.name))));
+        tell(Step::Wrote(plan.folder.join(&plan.film_file)));
     }
     Ok(())
 }

@@ -199,6 +199,9 @@ impl Smooth {
 }
 
 impl Spectrum {
+    /// The illuminant D65.
+    pub const DAYLIGHT: Self = Self::Illuminant(Illuminant::D65);
+
     /// The integral over all wavelengths (nm), where it is finite.
     pub fn total(&self) -> Option<f64> {
         match self {

@@ -29,6 +29,12 @@ impl Table {
         self.value[after - 1] + part * (self.value[after] - self.value[after - 1])
     }
 
+    /// The same wavelengths with all values multiplied.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.value.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
     /// First and last wavelength, nm.
     pub fn range(&self) -> (f64, f64) {
         (self.nm[0], self.nm[self.nm.len() - 1])
