@@ -2,5 +2,6 @@
 
 #[cfg(feature = "video")]
 mod film;
+mod import;
 mod manifest;
 mod output;

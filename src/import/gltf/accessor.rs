@@ -77,7 +77,7 @@ fn within(bytes: &[u8], offset: u64, count: u64, stride: usize, size: usize) -> 
     let steps = count.saturating_sub(1).checked_mul(stride as u64);
     let last = if count == 0 { 0 } else { size as u64 };
     let end = steps.and_then(|n| n.checked_add(last)).and_then(|n| n.checked_add(offset));
-    if !end.is_some_and(|end| end <= bytes.len() as u64) {
+    if end.is_none_or(|end| end > bytes.len() as u64) {
         return Err(format!(
             "{count} elements of {size} bytes, {stride} apart, from byte {offset} on do not fit \
              into the {} bytes of its bufferView",

@@ -69,8 +69,11 @@ pub(super) fn open<'a>(bytes: &'a [u8], job: &mut Job) -> Option<Document<'a>> {
     Some(Document { root, buffers, animations, quantized, colored })
 }
 
+/// The JSON of a file and its binary chunk.
+type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
+
 /// The JSON of a file, and the binary chunk of a GLB, which it is by its first bytes, not by its name.
-fn container<'a>(bytes: &'a [u8], job: &mut Job) -> Option<(Cow<'a, [u8]>, Option<Cow<'a, [u8]>>)> {
+fn container<'a>(bytes: &'a [u8], job: &mut Job) -> Option<Chunks<'a>> {
     if !bytes.starts_with(b"glTF") {
         // Some editors put a byte order mark in front.
         return Some((Cow::Borrowed(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)), None));
@@ -294,9 +297,11 @@ fn valid(root: &json::Root, job: &mut Job) -> bool {
         };
         // Bounds are not needed here, and an accessor without a view is legal: it is all zeros.
         // Skins are not kept.
-        let bounds = element.ends_with(".POSITION.min") || element.ends_with(".POSITION.max");
-        let zeros = element.starts_with("accessors[") && element.ends_with(".bufferView");
-        let skin = element.starts_with("nodes[") && element.ends_with(".skin");
+        let list = element.split_once('[').unwrap_or_default().0;
+        let key = element.rsplit_once('.').unwrap_or_default().1;
+        let bounds = element.contains(".POSITION.") && (key == "min" || key == "max");
+        let zeros = list == "accessors" && key == "bufferView";
+        let skin = list == "nodes" && key == "skin";
         if bounds || skin || (zeros && wrong == Wrong::Missing) {
             return;
         }

@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::texture::{self, Pictures};
-use crate::import::{Job, Material, default_material};
+use crate::import::{Job, Material};
 use gltf::json;
 use gltf::json::material::AlphaMode;
 use gltf::json::validation::Checked;
@@ -51,7 +51,6 @@ fn material(
         // Its alpha means nothing.
         emissive_texture: read(&written.emissive_texture, opaque, "emissiveTexture"),
         unlit: extensions.is_some_and(|e| e.unlit.is_some()),
-        ..default_material()
     }
 }
 
@@ -66,7 +65,7 @@ fn check(color: &[f32], element: &str, job: &mut Job) {
 fn warn(written: &json::Material, colored: bool, element: &str, job: &mut Job) {
     let extensions = written.extensions.as_ref();
     let explicit = written.emissive_texture.is_some()
-        || written.emissive_factor.0 != [0.0; 3]
+        || written.emissive_factor.0.iter().any(|&c| c > 0.0)
         || extensions.is_some_and(|e| e.unlit.is_some());
     if !colored && !explicit {
         let name = written.name.as_deref().unwrap_or("");

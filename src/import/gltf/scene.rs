@@ -77,7 +77,7 @@ fn parents(document: &Document<'_>, job: &mut Job) -> Option<Vec<Option<usize>>>
     let mut waiting: Vec<usize> = (0..nodes.len()).filter(|&i| parents[i].is_none()).collect();
     while let Some(i) = waiting.pop() {
         reached[i] = true;
-        waiting.extend(nodes[i].children.iter().flatten().map(|child| child.value()));
+        waiting.extend(nodes[i].children.iter().flatten().map(json::Index::value));
     }
     if let Some(i) = reached.iter().position(|&reached| !reached) {
         job.fault(format!("nodes[{i}]"), "is its own ancestor, or below such a node", "");
@@ -91,7 +91,7 @@ fn roots(document: &Document<'_>, parents: &[Option<usize>], job: &mut Job) -> O
     let Some(scene) = document.root.scenes.get(number) else {
         return Some((0..parents.len()).filter(|&i| parents[i].is_none()).collect());
     };
-    let roots: Vec<usize> = scene.nodes.iter().map(|node| node.value()).collect();
+    let roots: Vec<usize> = scene.nodes.iter().map(json::Index::value).collect();
     let mut seen = vec![false; parents.len()];
     let before = job.faults;
     for (i, &root) in roots.iter().enumerate() {
@@ -109,7 +109,8 @@ fn roots(document: &Document<'_>, parents: &[Option<usize>], job: &mut Job) -> O
 fn transform(node: &json::Node, number: usize, job: &mut Job) -> DAffine3 {
     let written = if let Some(matrix) = node.matrix {
         let m = matrix.map(f64::from);
-        if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+        let last = [m[3], m[7], m[11], m[15] - 1.0];
+        if !last.iter().all(|c| c.abs() < 1e-6) {
             let what = "its last row is not 0 0 0 1, so it is not a place in space";
             job.fault(format!("nodes[{number}].matrix"), what, "");
         }
@@ -227,7 +228,8 @@ fn light_kind(written: &WrittenLight, number: usize, job: &mut Job) -> LightKind
         (Checked::Valid(WrittenKind::Directional), _) => LightKind::Sun,
         (Checked::Valid(WrittenKind::Spot), Some(spot)) => {
             let (inner, outer) = (spot.inner_cone_angle, spot.outer_cone_angle);
-            if !valid(inner) || !(outer > 0.0 && outer <= std::f32::consts::FRAC_PI_2) || inner > outer {
+            let cone = valid(inner) && inner <= outer && outer > 0.0 && outer <= std::f32::consts::FRAC_PI_2;
+            if !cone {
                 let what = format!("angles of {inner} and {outer} do not make a cone");
                 job.fault(format!("{element}.spot"), what, "0 ≤ innerConeAngle ≤ outerConeAngle ≤ 1.5708");
             }

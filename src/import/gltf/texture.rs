@@ -47,12 +47,7 @@ pub(super) fn read(
         job.fault(format!("textures[{}].source", info.index.value()), what, hint);
         return None;
     };
-    let key = (written.source.value(), opaque);
-    if !pictures.contains_key(&key) {
-        let picture = picture(document, image, key, pictures, job);
-        pictures.insert(key, picture);
-    }
-    let picture = pictures.get(&key)?.clone()?;
+    let picture = picture(document, image, (written.source.value(), opaque), pictures, job)?;
     let filter = match sampler.mag_filter {
         Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
         _ => Filter::Linear,
@@ -84,33 +79,35 @@ fn matrix(t: &TextureTransform) -> DAffine2 {
     DAffine2::from_mat2_translation(rotation * scale, DVec2::new(u, v))
 }
 
-/// Loads and decodes an image; a fault is reported and gives none.
+/// The picture of an image (its number, and whether its alpha is left out); a fault is reported, once, and
+/// gives none.
 fn picture(
     document: &Document<'_>,
     image: &json::Image,
     (number, opaque): (usize, bool),
-    pictures: &Pictures,
+    pictures: &mut Pictures,
     job: &mut Job,
 ) -> Option<Arc<Picture>> {
-    let decoded = match pictures.get(&(number, !opaque)) {
-        Some(other) => other.clone()?,
-        None => match load(document, image, job) {
-            Ok(picture) => Arc::new(picture),
-            Err(refusal) => {
-                job.refused(format!("images[{number}]"), refusal);
-                return None;
-            }
-        },
+    if let Some(known) = pictures.get(&(number, opaque)) {
+        return known.clone();
+    }
+    let made = if opaque {
+        picture(document, image, (number, false), pictures, job).map(|whole| without_alpha(&whole, job))
+    } else {
+        Some(load(document, image, job).map(Arc::new))
     };
-    if !opaque || picture::is_opaque(&decoded) {
-        return Some(decoded);
+    let made =
+        made.and_then(|made| made.map_err(|refusal| job.refused(format!("images[{number}]"), refusal)).ok());
+    pictures.insert((number, opaque), made.clone());
+    made
+}
+
+fn without_alpha(whole: &Arc<Picture>, job: &mut Job) -> Result<Arc<Picture>, Refusal> {
+    if picture::is_opaque(whole) {
+        return Ok(whole.clone());
     }
-    let bytes = u64::from(decoded.width) * u64::from(decoded.height) * 16;
-    if let Err(refusal) = job.files.take(bytes) {
-        job.refused(format!("images[{number}]"), refusal);
-        return None;
-    }
-    Some(Arc::new(picture::opaque(Arc::unwrap_or_clone(decoded))))
+    job.files.take(u64::from(whole.width) * u64::from(whole.height) * 16)?;
+    Ok(Arc::new(picture::opaque(Picture::clone(whole))))
 }
 
 fn load(document: &Document<'_>, image: &json::Image, job: &mut Job) -> Result<Picture, Refusal> {

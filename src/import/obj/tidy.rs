@@ -59,8 +59,8 @@ pub(super) fn tidy(text: &str, job: &mut Job) -> Option<Tidied> {
             tidy.job.fault(format!("line {number}"), what, "");
         }
     }
-    let Tidy { job, done, run, .. } = tidy;
-    if job.faults == before && run.is_none() {
+    let Tidy { job, done, .. } = tidy;
+    if job.faults == before && done.objects.is_empty() {
         job.fault("the whole file", "has no faces", "export the model again, with its meshes");
     }
     (job.faults == before).then_some(done)
@@ -222,13 +222,12 @@ impl Tidy<'_> {
             return;
         }
         let objects = &mut self.done.objects;
-        let number = match self.numbers.get(&self.object) {
-            Some(&number) => number,
-            None => {
-                objects.push(self.object.clone());
-                self.numbers.insert(self.object.clone(), objects.len() - 1);
-                objects.len() - 1
-            }
+        let number = if let Some(&number) = self.numbers.get(&self.object) {
+            number
+        } else {
+            objects.push(self.object.clone());
+            self.numbers.insert(self.object.clone(), objects.len() - 1);
+            objects.len() - 1
         };
         self.run = Some((number, kind));
         self.write(&format!("o {number}"));
