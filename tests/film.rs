@@ -58,7 +58,7 @@ fn samples(file: &[u8]) -> Vec<&[u8]> {
     let mut sizes = (0..word(sizes, 8)).map(|i| word(sizes, 12 + 4 * i));
     let mut found = Vec::new();
     for chunk in 0..word(chunks, 4) {
-        let run = (0..word(runs, 4)).filter(|run| word(runs, 8 + 12 * run) <= chunk + 1).last().unwrap();
+        let run = (0..word(runs, 4)).rfind(|run| word(runs, 8 + 12 * run) <= chunk + 1).unwrap();
         let mut offset = word(chunks, 12 + 8 * chunk);
         for _ in 0..word(runs, 12 + 12 * run) {
             let size = sizes.next().unwrap();

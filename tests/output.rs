@@ -47,7 +47,7 @@ mod a_file {
         let path = folder.path().join("0001.png");
         fs::write(&path, "old").unwrap();
         let result = write_whole(&path, |file| {
-            file.write_all(&[0; 100_000])?;
+            file.write_all(&vec![0; 100_000])?;
             Err(io::Error::from(io::ErrorKind::StorageFull))
         });
         assert!(matches!(result, Err(Error::Machine { path: named, .. }) if named == path));
@@ -176,7 +176,7 @@ mod an_exr {
             xyz: ramp(100.0).map(|v| [v, v * 1.5, v * 1e-9]).collect(),
             doppler: ramp(0.003).collect(),
             emission_time: ramp(-2.5e8).collect(),
-            body: (0..count).map(|i| i as i32 % 5 - 1).collect(),
+            body: (-1..4).cycle().take(count).collect(),
             text: vec![("scene", "Vorbeiflug β = 0.9".to_owned()), ("exposure", "12".to_owned())],
         }
     }
@@ -247,4 +247,15 @@ mod an_exr {
         assert!(write(&folder.path().join("0001.exr"), &values).is_err());
         assert_eq!(names_in(folder.path()), [""; 0]);
     }
+}
+
+#[cfg(not(feature = "video"))]
+#[test]
+fn a_build_without_video_says_so() {
+    use terrell::output::{Movie, movie};
+    let Err(Error::Input(faults)) = Movie::create(Path::new("film.mp4"), 64, 48, 24.0) else {
+        panic!("it was made")
+    };
+    assert!(!movie::AVAILABLE);
+    assert!(faults[0].hint.contains("feature `video`"));
 }

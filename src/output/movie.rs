@@ -66,8 +66,8 @@ impl Movie {
         Ok(Self { reel: Reel::create(path, width as usize, height as usize, rate)? })
     }
 
-    /// Adds a picture: red, green, blue of every pixel, row by row from the top, encoded as sRGB, `3 * width
-    /// * height` bytes.
+    /// Adds a picture: red, green, blue of every pixel, row by row from the top, encoded as sRGB:
+    /// `3 * width * height` bytes.
     pub fn push(&mut self, rgb: &[u8]) -> Result<(), Error> {
         self.reel.push(rgb)
     }

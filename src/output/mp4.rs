@@ -47,7 +47,7 @@ pub(super) fn timing(rate: f64) -> (u32, u32) {
 
 /// Writes the file; `data` gives the samples one after the other.
 pub(super) fn write(into: &mut impl Write, track: &Track, data: &mut impl Read) -> io::Result<()> {
-    let ftyp = boxed(b"ftyp", &[b"isom", &[0, 0, 2, 0], b"isom", b"iso2", b"avc1", b"mp41"]);
+    let ftyp = boxed("ftyp", &[b"isom", &[0, 0, 2, 0], b"isom", b"iso2", b"avc1", b"mp41"]);
     let length: u64 = track.samples.iter().map(|sample| u64::from(sample.bytes)).sum();
     // Offsets are written in 64 bits, so that the index is as long with them as without.
     let before = (ftyp.len() + moov(track, 0).len() + MDAT_HEADER) as u64;
@@ -71,17 +71,19 @@ const CHUNK: usize = 16;
 
 const UNITY: [u32; 9] = [0x1_0000, 0, 0, 0, 0x1_0000, 0, 0, 0, 0x4000_0000];
 
-fn boxed(name: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+fn boxed(name: &str, parts: &[&[u8]]) -> Vec<u8> {
     let length = 8 + parts.iter().map(|part| part.len()).sum::<usize>();
     let mut bytes = Vec::with_capacity(length);
     bytes.extend((length as u32).to_be_bytes());
-    bytes.extend(name);
-    parts.iter().for_each(|part| bytes.extend(*part));
+    bytes.extend(name.as_bytes());
+    for part in parts {
+        bytes.extend(*part);
+    }
     bytes
 }
 
 /// A box that begins with its version and flags.
-fn full(name: &[u8; 4], version_and_flags: u32, parts: &[&[u8]]) -> Vec<u8> {
+fn full(name: &str, version_and_flags: u32, parts: &[&[u8]]) -> Vec<u8> {
     boxed(name, &[&version_and_flags.to_be_bytes(), &parts.concat()])
 }
 
@@ -111,22 +113,22 @@ fn moov(track: &Track, first_offset: u64) -> Vec<u8> {
     // Rate 1, volume 1, reserved; later the number that a further track would get.
     let settings = [words(&[0x1_0000]), vec![1, 0], vec![0; 10]].concat();
     let rest = [words(&UNITY), vec![0; 24], words(&[2])].concat();
-    let mvhd = full(b"mvhd", version, &[&dates, &scale, &duration, &settings, &rest]);
+    let mvhd = full("mvhd", version, &[&dates, &scale, &duration, &settings, &rest]);
     // Layer, group, volume and reserved are zero; the size is in 16.16.
     let size = words(&[u32::from(track.width) << 16, u32::from(track.height) << 16]);
     let tkhd = full(
-        b"tkhd",
+        "tkhd",
         version | 3, // enabled, and part of the presentation
         &[&dates, &words(&[1, 0]), &duration, &[0; 16], &words(&UNITY), &size],
     );
-    let mdhd = full(b"mdhd", version, &[&dates, &scale, &duration, &[0x55, 0xc4, 0, 0]]); // language "und"
-    let hdlr = full(b"hdlr", 0, &[&[0; 4], b"vide", &[0; 12], b"film\0"]);
-    let vmhd = full(b"vmhd", 1, &[&[0; 8]]);
-    let dref = full(b"dref", 0, &[&words(&[1]), &full(b"url ", 1, &[])]); // in this very file
-    let dinf = boxed(b"dinf", &[&dref]);
-    let minf = boxed(b"minf", &[&vmhd, &dinf, &stbl(track, first_offset)]);
-    let trak = boxed(b"trak", &[&tkhd, &boxed(b"mdia", &[&mdhd, &hdlr, &minf])]);
-    boxed(b"moov", &[&mvhd, &trak])
+    let mdhd = full("mdhd", version, &[&dates, &scale, &duration, &[0x55, 0xc4, 0, 0]]); // language "und"
+    let hdlr = full("hdlr", 0, &[&[0; 4], b"vide", &[0; 12], b"film\0"]);
+    let vmhd = full("vmhd", 1, &[&[0; 8]]);
+    let dref = full("dref", 0, &[&words(&[1]), &full("url ", 1, &[])]); // in this very file
+    let dinf = boxed("dinf", &[&dref]);
+    let minf = boxed("minf", &[&vmhd, &dinf, &stbl(track, first_offset)]);
+    let trak = boxed("trak", &[&tkhd, &boxed("mdia", &[&mdhd, &hdlr, &minf])]);
+    boxed("moov", &[&mvhd, &trak])
 }
 
 /// The tables of samples.
@@ -152,14 +154,14 @@ fn stbl(track: &Track, first_offset: u64) -> Vec<u8> {
     }
     let chunks = (whole + usize::from(left > 0)) as u32;
     boxed(
-        b"stbl",
+        "stbl",
         &[
-            &full(b"stsd", 0, &[&words(&[1]), &avc1(track)]),
-            &full(b"stts", 0, &[&words(&[1, count as u32, track.duration])]),
-            &full(b"stss", 0, &[&words(&[keys.len() as u32]), &words(&keys)]),
-            &full(b"stsc", 0, &[&words(&[runs.len() as u32 / 3]), &words(&runs)]),
-            &full(b"stsz", 0, &[&words(&[0, count as u32]), &words(&sizes)]),
-            &full(b"co64", 0, &[&words(&[chunks]), &offsets]),
+            &full("stsd", 0, &[&words(&[1]), &avc1(track)]),
+            &full("stts", 0, &[&words(&[1, count as u32, track.duration])]),
+            &full("stss", 0, &[&words(&[keys.len() as u32]), &words(&keys)]),
+            &full("stsc", 0, &[&words(&[runs.len() as u32 / 3]), &words(&runs)]),
+            &full("stsz", 0, &[&words(&[0, count as u32]), &words(&sizes)]),
+            &full("co64", 0, &[&words(&[chunks]), &offsets]),
         ],
     )
 }
@@ -168,7 +170,7 @@ fn stbl(track: &Track, first_offset: u64) -> Vec<u8> {
 fn avc1(track: &Track) -> Vec<u8> {
     let size = [track.width.to_be_bytes(), track.height.to_be_bytes()].concat();
     let avcc = boxed(
-        b"avcC",
+        "avcC",
         &[
             &[1],
             track.sequence.get(1..4).unwrap_or(&[0; 3]), // profile, compatibility, level
@@ -181,10 +183,10 @@ fn avc1(track: &Track) -> Vec<u8> {
             &[0xfd, 0xf8, 0xf8, 0], // High profile: 4:2:0, 8 bits, 8 bits, no extensions
         ],
     );
-    let colr = boxed(b"colr", &[b"nclx", &[0, 1, 0, 1, 0, 1, 0]]); // BT.709 thrice, limited range
-    let pasp = boxed(b"pasp", &[&words(&[1, 1])]);
+    let colr = boxed("colr", &[b"nclx", &[0, 1, 0, 1, 0, 1, 0]]); // BT.709 thrice, limited range
+    let pasp = boxed("pasp", &[&words(&[1, 1])]);
     boxed(
-        b"avc1",
+        "avc1",
         &[
             &[0, 0, 0, 0, 0, 0, 0, 1], // the first data reference
             &[0; 16],

@@ -15,7 +15,7 @@ use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// The quantiser of every picture: the eye finds no fault in sharp edges, and faint noise is kept.
-const QUANTISER: u8 = 20;
+const QUANTISER: u8 = 18;
 
 /// A film being coded.
 pub(super) struct Reel {

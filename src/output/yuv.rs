@@ -1,4 +1,4 @@
-//! From RGB to the Y'CbCr 4:2:0 of films.
+//! From RGB to luma and chroma, as films have them.
 
 use openh264::formats::YUVSource;
 
