@@ -49,7 +49,9 @@ impl Reconstruction {
         };
         let mut offsets: Vec<DVec2> = (0..samples).map(point).collect();
         let mean = offsets.iter().sum::<DVec2>() / f64::from(samples);
-        offsets.iter_mut().for_each(|offset| *offset -= mean);
+        for offset in &mut offsets {
+            *offset -= mean;
+        }
         offsets
     }
 }

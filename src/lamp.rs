@@ -13,7 +13,7 @@ pub enum Beam {
         place: DVec3,
     },
     /// A cone from one point: full inside the inner angle, none outside the outer, and in between the square of the
-    /// cosine's part of the way (KHR_lights_punctual).
+    /// cosine's part of the way (`KHR_lights_punctual`).
     Spot {
         /// Where it stands.
         place: DVec3,

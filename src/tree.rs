@@ -190,13 +190,10 @@ impl Tree {
                 if near[side] > walk.t_max {
                     continue;
                 }
-                if node.count[side] == 0 {
-                    if next.is_none() {
-                        next = Some(node.first[side]);
-                    } else {
-                        stack.push(near[side], node.first[side]);
-                    }
-                    continue;
+                match (node.count[side], next) {
+                    (0, None) => next = Some(node.first[side]),
+                    (0, Some(_)) => stack.push(near[side], node.first[side]),
+                    _ => {}
                 }
                 let begin = node.first[side] as usize;
                 for &item in &self.items[begin..begin + node.count[side] as usize] {
@@ -205,15 +202,12 @@ impl Tree {
                 if limit < 0.0 {
                     return limit;
                 }
-                walk.limit(limit);
+                if node.count[side] > 0 {
+                    walk.limit(limit);
+                }
             }
-            at = match next {
-                Some(next) => next,
-                None => match stack.pop(walk.t_max) {
-                    Some(next) => next,
-                    None => return limit,
-                },
-            };
+            let Some(follow) = next.or_else(|| stack.pop(walk.t_max)) else { return limit };
+            at = follow;
         }
     }
 

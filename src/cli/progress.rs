@@ -11,7 +11,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
 /// The state of a film's rendering, shown as it goes.
 pub(super) struct Progress {
-    bar: Option<ProgressBar>,
+    gauge: Option<ProgressBar>,
     started: Instant,
     last_line: Option<Instant>,
     done: usize,
@@ -21,16 +21,16 @@ pub(super) struct Progress {
 impl Progress {
     /// For so many pictures of a film.
     pub(super) fn start(plan: &Plan, pictures: usize) -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        let gauge = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}  {elapsed} gone, {eta} left  {msg}");
             ProgressBar::new(pictures as u64)
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
                 .with_message(plan.folder.display().to_string())
         });
-        if let Some(bar) = &bar {
-            bar.enable_steady_tick(Duration::from_millis(250));
+        if let Some(gauge) = &gauge {
+            gauge.enable_steady_tick(Duration::from_millis(250));
         }
-        Self { bar, started: Instant::now(), last_line: None, done: 0, pictures }
+        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures }
     }
 
     /// Shows a step.
@@ -42,10 +42,10 @@ impl Progress {
         }
         self.done += 1;
         let last = self.done == self.pictures;
-        if let Some(bar) = &self.bar {
-            bar.inc(1);
+        if let Some(gauge) = &self.gauge {
+            gauge.inc(1);
             if last {
-                bar.finish_and_clear();
+                gauge.finish_and_clear();
             }
         }
         if last {
@@ -55,7 +55,7 @@ impl Progress {
             return self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
         }
         let due = self.last_line.is_none_or(|line| line.elapsed() >= BETWEEN_LINES);
-        if self.bar.is_none() && due {
+        if self.gauge.is_none() && due {
             self.last_line = Some(Instant::now());
             let each = self.started.elapsed().as_secs_f64() / self.done as f64;
             let left = each * (self.pictures - self.done) as f64;
@@ -64,8 +64,8 @@ impl Progress {
     }
 
     fn say(&self, line: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{line}")),
+        match &self.gauge {
+            Some(gauge) => gauge.suspend(|| eprintln!("{line}")),
             None => eprintln!("{line}"),
         }
     }
