@@ -211,7 +211,7 @@ def read_exr(mi, path):
     """R, G, B of an EXR in cd/m2 of white, whatever else is in it."""
     bitmap = mi.Bitmap(path)
     fields = [bitmap.struct_()[k].name for k in range(len(bitmap.struct_()))]
-    data = np.array(bitmap.convert(component_format=mi.Struct.Type.Float32, pixel_format=bitmap.pixel_format(), srgb_gamma=False))
+    data = np.array(bitmap)  # all channels are 32 bits wide
     missing = [c for c in "RGB" if c not in fields]
     if missing:
         raise SystemExit(f"{path}: no channel {missing[0]}; it has {', '.join(fields)}")
