@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 #[cfg(feature = "video")]
-mod film;
+mod movie;
 mod import;
 mod manifest;
 mod output;
