@@ -193,6 +193,7 @@ fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "the numbers are binary fractions, and exact")]
 mod tests {
     use super::*;
 

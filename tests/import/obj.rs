@@ -148,7 +148,7 @@ fn missing_library_and_unknown_material_are_warned_of() {
 /// What the faults of a square with one more line say, in one string.
 fn said(obj: &str, mtl: &str) -> String {
     let files = [("m.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
-    faults(load_files("m.obj", &files)).iter().map(|fault| format!("{fault}\n")).collect()
+    faults(load_files("m.obj", &files)).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
