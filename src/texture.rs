@@ -145,18 +145,19 @@ impl Wrap {
         }
     }
 
-    /// The texel of a row of `size` that stands in for number `i`, inside or outside.
+    /// The texel of a row of `size` that stands in for number `i`, up to one beyond the range that
+    /// [`Wrap::coordinate`] leaves.
     fn texel(self, i: i64, size: u32) -> usize {
         let size = i64::from(size);
         let inside = match self {
-            Self::Repeat => i.rem_euclid(size),
-            Self::Mirror => {
-                let i = i.rem_euclid(2 * size);
-                i.min(2 * size - 1 - i)
-            }
-            Self::Clamp => i.clamp(0, size - 1),
+            Self::Repeat if i < 0 => i + size,
+            Self::Repeat if i >= size => i - size,
+            Self::Mirror if i < 0 => -1 - i,
+            Self::Mirror if i >= 2 * size => i - 2 * size,
+            Self::Mirror if i >= size => 2 * size - 1 - i,
+            _ => i,
         };
-        inside as usize
+        inside.clamp(0, size - 1) as usize
     }
 }
 
@@ -171,18 +172,17 @@ impl Texture {
         let picture = &*self.picture;
         let x = self.wrap[0].coordinate(uv.x) * f64::from(picture.width);
         let y = self.wrap[1].coordinate(uv.y) * f64::from(picture.height);
-        let at = |column: i64, row: i64| {
-            let column = self.wrap[0].texel(column, picture.width);
-            picture.texel(column, self.wrap[1].texel(row, picture.height))
-        };
+        let column = |i: f64| self.wrap[0].texel(i as i64, picture.width);
+        let row = |i: f64| self.wrap[1].texel(i as i64, picture.height);
         if self.filter == Filter::Nearest {
-            return at(x.floor() as i64, y.floor() as i64);
+            return picture.texel(column(x.floor()), row(y.floor()));
         }
         let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
         let (right, down) = ((x - 0.5 - left) as f32, (y - 0.5 - top) as f32);
-        let (left, top) = (left as i64, top as i64);
-        let upper = mix(at(left, top), at(left + 1, top), right);
-        let lower = mix(at(left, top + 1), at(left + 1, top + 1), right);
+        let columns = [column(left), column(left + 1.0)];
+        let rows = [row(top), row(top + 1.0)];
+        let [upper, lower] =
+            rows.map(|row| mix(picture.texel(columns[0], row), picture.texel(columns[1], row), right));
         mix(upper, lower, down)
     }
 }
@@ -193,6 +193,7 @@ fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "the numbers are binary fractions, and exact")]
 mod tests {
     use super::*;
 

@@ -160,6 +160,9 @@ pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
         job.found(Fault::new(Place::file(path), what, "please report it with the file"));
         None
     });
+    if asset.is_none() && job.faults == 0 {
+        job.found(Fault::new(Place::file(path), "this file could not be read", ""));
+    }
     let Job { mut report, faults, warnings, .. } = job;
     more(&mut report.faults, faults, path, "faults");
     more(&mut report.warnings, warnings, path, "warnings");
@@ -195,6 +198,7 @@ struct Job {
 }
 
 impl Job {
+    /// Takes note of a fault.
     fn found(&mut self, fault: Fault) {
         self.faults += 1;
         if self.report.faults.len() < REPORT_LIMIT {
@@ -202,6 +206,7 @@ impl Job {
         }
     }
 
+    /// Takes note of a warning.
     fn noticed(&mut self, warning: Fault) {
         self.warnings += 1;
         if self.report.warnings.len() < REPORT_LIMIT {

@@ -76,8 +76,8 @@ const ACCESSORS: &[Case] = &[
     ),
     (
         |m| {
-            m.json["accessors"][0] =
-                json!({ "componentType": F32, "type": "VEC3", "count": 4_000_000_000_u32 })
+            let accessor = json!({ "componentType": F32, "type": "VEC3", "count": 4_000_000_000_u32 });
+            m.json["accessors"][0] = accessor;
         },
         "attributes.POSITION: accessors[0]: 4000000000 elements without a bufferView",
     ),

@@ -1,4 +1,6 @@
 //! What the importers promise, with models made on the spot.
+#![allow(clippy::float_cmp, reason = "numbers go in and must come out as they are")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "these are the tests' own helpers")]
 
 mod lights;
 mod malformed;
@@ -18,7 +20,6 @@ use terrell::import::{Asset, load};
 pub(crate) const U8: u32 = 5121;
 pub(crate) const I16: u32 = 5122;
 pub(crate) const U16: u32 = 5123;
-pub(crate) const U32: u32 = 5125;
 pub(crate) const F32: u32 = 5126;
 
 /// A glTF model in the making.

@@ -92,6 +92,21 @@ fn hierarchy_may_be_a_hundred_thousand_deep() {
 }
 
 #[test]
+fn custom_properties_and_an_empty_scene_are_no_hindrance() {
+    let mut model = Model::triangle();
+    let extras =
+        json!({ "beta": [0.8, 0, 0], "mesh": 5_000_000_000_u64, "deep": { "list": [1, "two", null] } });
+    for list in ["nodes", "meshes", "accessors", "scenes"] {
+        model.json[list][0]["extras"] = extras.clone();
+    }
+    assert_eq!(model.asset().instances.len(), 1);
+    model.json["scenes"] = json!([{ "name": "Empty" }]);
+    let asset = model.asset();
+    assert!(asset.instances.is_empty());
+    assert!(warns(&asset, "scenes: no node of the scene has a mesh"));
+}
+
+#[test]
 fn parents_come_before_their_children() {
     let mut model = Model::triangle();
     model.json["nodes"] = json!([{ "children": [2] }, { "mesh": 0 }, { "children": [1] }]);

@@ -118,6 +118,18 @@ fn materials_have_colour_coverage_glow_and_texture() {
 }
 
 #[test]
+fn alpha_of_a_picture_counts_where_map_d_names_it_again() {
+    let picture = png(1, &[[255, 0, 0, 51]]);
+    let mtl = "newmtl a\nmap_Kd p.png\nmap_d -imfchan m p.png\nnewmtl b\nmap_Kd p.png\nmap_d q.png\n";
+    let text = format!("mtllib m.mtl\n{SQUARE}f 1 2 3\n");
+    let asset = read(&text, &[("m.mtl", mtl.as_bytes()), ("p.png", &picture)]);
+    let alpha = |i: usize| asset.materials[i].base_texture.as_ref().unwrap().rgba(DVec2::ZERO)[3];
+    assert_eq!((alpha(0), alpha(1)), (0.2, 1.0));
+    assert!(warns(&asset, "m.mtl: line 6: a map_d other than"));
+    assert_eq!(asset.warnings.len(), 1);
+}
+
+#[test]
 fn several_libraries_on_a_line_are_read_and_each_only_once() {
     let text = format!("mtllib a.mtl b.mtl\nmtllib a.mtl\n{SQUARE}usemtl b\nf 1 2 3\n");
     let asset = read(&text, &[("a.mtl", b"newmtl a\nKd 1 0 0"), ("b.mtl", b"newmtl b\nKd 0 1 0")]);
@@ -136,7 +148,7 @@ fn missing_library_and_unknown_material_are_warned_of() {
 /// What the faults of a square with one more line say, in one string.
 fn said(obj: &str, mtl: &str) -> String {
     let files = [("m.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())];
-    faults(load_files("m.obj", &files)).iter().map(|fault| format!("{fault}\n")).collect()
+    faults(load_files("m.obj", &files)).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 #[test]

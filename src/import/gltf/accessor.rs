@@ -9,7 +9,7 @@ use gltf::json::validation::Checked;
 
 /// The most elements of an accessor that has no bytes behind it (all zeros, or sparse), since nothing else
 /// bounds those.
-const ZEROS_LIMIT: u64 = 1 << 24;
+const ZEROS_LIMIT: u64 = 1 << 22;
 
 /// An accessor whose every element is known to be there.
 pub(super) struct Elements<'a> {

@@ -21,6 +21,9 @@ pub(super) const SUPPORTED: [&str; 5] = [
     "KHR_texture_transform",
 ];
 
+/// Bytes in memory for a byte of JSON, at worst.
+const VALUE_BYTES: u64 = 16;
+
 /// A parsed file with its buffers.
 pub(super) struct Document<'a> {
     /// The JSON, without animations and skins.
@@ -50,10 +53,7 @@ pub(super) fn open<'a>(bytes: &'a [u8], job: &mut Job) -> Option<Document<'a>> {
     }
     let animations = names(&value["animations"]);
     let colored = list(&value["materials"]).iter().map(|m| m.get("pbrMetallicRoughness").is_some()).collect();
-    if let Some(object) = value.as_object_mut() {
-        object.remove("animations");
-        object.remove("skins");
-    }
+    trim(&mut value);
     let root: json::Root = match serde_json::from_value(value) {
         Ok(root) => root,
         Err(error) => {
@@ -107,7 +107,22 @@ fn container<'a>(bytes: &'a [u8], job: &mut Job) -> Option<Chunks<'a>> {
     }
 }
 
+/// Drops what is not read, and fills in the one list that the crate demands and glTF does not.
+fn trim(value: &mut Value) {
+    let Some(object) = value.as_object_mut() else { return };
+    object.remove("animations");
+    object.remove("skins");
+    let scenes = object.get_mut("scenes").and_then(Value::as_array_mut);
+    for scene in scenes.into_iter().flatten().filter_map(Value::as_object_mut) {
+        scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    }
+}
+
 fn parse(text: &[u8], job: &mut Job) -> Option<Value> {
+    if let Err(refusal) = job.files.take(text.len() as u64 * VALUE_BYTES) {
+        job.refused("JSON", refusal);
+        return None;
+    }
     match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => Some(value),
         Ok(_) => {
