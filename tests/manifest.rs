@@ -1,36 +1,47 @@
 //! What manifests mean, and what is said about those that mean nothing.
 
-use std::path::{Path, PathBuf};
-use terrell::error::Report;
-use terrell::manifest;
+mod faults;
+mod hostile;
+mod units;
+mod values;
 
-/// The manifests of a folder, in order.
-fn manifests(folder: &str) -> Vec<PathBuf> {
-    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<_> = paths.filter(|path| path.extension().is_some_and(|x| x == "yaml")).collect();
-    paths.sort();
-    assert!(!paths.is_empty());
-    paths
+use std::path::Path;
+use terrell::error::Report;
+use terrell::manifest::{self, Manifest};
+
+/// What a text says, which has no faults.
+fn read(text: &str) -> Manifest {
+    read_with(text, &[])
 }
 
-/// Each manifest that must fail has the whole of what is said about it beside it.
-/// `TERRELL_UPDATE=1` writes what is said now; read the difference before keeping it.
-#[test]
-fn bad_manifests_are_refused_with_place_fault_and_hint() {
-    let mut wrong = Vec::new();
-    for path in manifests("tests/manifests/bad") {
-        let mut report = Report::default();
-        assert!(manifest::load(&path, &mut report).is_none(), "{} was accepted", path.display());
-        assert!(!report.faults.is_empty(), "{}: no fault", path.display());
-        let lines: Vec<_> = report.faults.iter().map(|fault| format!("{fault}\n")).collect();
-        let said = lines.concat().replace("tests/manifests/bad/", "");
-        let expected = path.with_extension("expected");
-        if std::env::var_os("TERRELL_UPDATE").is_some() {
-            std::fs::write(&expected, &said).unwrap();
-        }
-        if std::fs::read_to_string(&expected).ok().as_ref() != Some(&said) {
-            wrong.push(format!("{}:\n{said}", path.display()));
-        }
-    }
-    assert!(wrong.is_empty(), "not as expected:\n{}", wrong.join("\n"));
+fn read_with(text: &str, overrides: &[(&str, &str)]) -> Manifest {
+    let mut report = Report::default();
+    let overrides: Vec<_> = overrides.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect();
+    let path = Path::new("folder/m.yaml");
+    let manifest = manifest::parse_with(path, text, &overrides, &mut report);
+    assert_eq!(report.faults, [], "of {text}");
+    manifest.unwrap()
+}
+
+/// What a text says that has a standing observer and an output too.
+fn complete(text: &str) -> Manifest {
+    read(&format!("{text}\nobserver: {{}}\noutput: out\n"))
+}
+
+/// The faults of a text.
+fn faults(text: &str) -> Report {
+    let mut report = Report::default();
+    let manifest = manifest::parse(Path::new("m.yaml"), text, &mut report);
+    assert_eq!(manifest.is_none(), !report.faults.is_empty(), "nothing exactly if there are faults: {text}");
+    report
+}
+
+/// The observer of a manifest that says nothing else.
+fn observer(text: &str) -> manifest::Observer {
+    read(&format!("observer: {text}\noutput: out\n")).observer
+}
+
+/// Equal but for rounding.
+fn close(found: f64, expected: f64) -> bool {
+    (found - expected).abs() <= 1e-14 * expected.abs().max(1e-300)
 }

@@ -1,8 +1,8 @@
-//! The laws and requirements that the program is held to.
+//! The laws and requirements that the program is held to, a module for each.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[cfg(feature = "video")]
-mod movie;
 mod import;
 mod manifest;
+#[cfg(feature = "video")]
+mod movie;
 mod output;

@@ -5,7 +5,7 @@ use super::material::{Material, MaterialKind};
 use super::motion::Placement;
 use super::node::{Content, Node};
 use super::plain::{FilePath, Placed, Scale, Switch, Text};
-use super::reader::{Read, Reader};
+use super::reader::{Read, Reader, instead};
 use super::record::{Kind, List, Named, Shape, record};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,9 +94,9 @@ impl Kind for AssetName {
         if reader.assets.contains(&name.value) {
             return Ok(name);
         }
-        let known = reader.assets.clone();
-        let known: Vec<_> = known.iter().map(String::as_str).collect();
-        Err(reader.unknown_name(&name.place, "asset", &name.value, &known, "assets"))
+        let known = reader.assets.iter().map(String::as_str);
+        let hint = if reader.suggests() { instead(&name.value, known, "assets") } else { String::new() };
+        Err(reader.fault(&name.place, format!("there is no asset named `{}`", name.value), hint))
     }
 }
 

@@ -160,6 +160,7 @@ impl Kind for GlowKind {
 
 /// Reads an amount of light, zero or more, and says in which dimension it was written.
 fn amount(node: &Node, quantity: &Quantity, reader: &mut Reader<'_>) -> Read<(Amount, Dimension)> {
+    use Dimension::{Flux, Illuminance, Intensity, Luminance};
     let (numbers, dimension) = reader.quantity(node, quantity)?;
     let number = numbers.first().copied().unwrap_or_default();
     if !(0.0..=1e30).contains(&number) {
@@ -167,7 +168,6 @@ fn amount(node: &Node, quantity: &Quantity, reader: &mut Reader<'_>) -> Read<(Am
         let what = format!("`{}` is out of range", node.text().unwrap_or_default());
         return Err(reader.fault(&node.place, what, hint));
     }
-    use Dimension::{Flux, Illuminance, Intensity, Luminance};
     let photometric = matches!(dimension, Flux | Illuminance | Intensity | Luminance);
     Ok((if photometric { Amount::Photometric(number) } else { Amount::Radiometric(number) }, dimension))
 }

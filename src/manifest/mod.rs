@@ -28,6 +28,7 @@ mod record;
 mod spectrum;
 mod table;
 mod units;
+mod yaml;
 
 pub use body::{AssetRef, Body};
 pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
@@ -134,7 +135,7 @@ pub fn parse_with(
 ) -> Option<Manifest> {
     let mut found = Report::default();
     let source = Source::File { path: path.to_owned(), text: text.into() };
-    let manifest = node::parse(&source, text, &mut found)
+    let manifest = yaml::parse(&source, text, &mut found)
         .and_then(|root| overrides::apply(root, overrides, &mut found))
         .and_then(|root| read(path, &root, &mut found));
     let sound = found.faults.is_empty();

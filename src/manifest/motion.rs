@@ -3,7 +3,7 @@
 
 use super::node::{Content, Node};
 use super::plain::{Direction, Real, Vector};
-use super::quantity::{Instant, Point, Quantity, VelocityVector, Written, vector};
+use super::quantity::{Angle, Instant, Point, Quantity, VelocityVector, Written, vector};
 use super::reader::{LIGHT_SPEED, Read, Reader};
 use super::record::{Kind, Shape, choice, record};
 use super::units::{self, Dimension};
@@ -12,6 +12,7 @@ use glam::{DQuat, DVec3};
 
 /// The greatest Lorentz factor: no β below 1 that f64 can hold goes beyond it.
 const GREATEST_GAMMA: f64 = 1e8;
+const TOO_NEAR: &str = "this is so near the speed of light that the arithmetic cannot follow";
 
 record! {
     /// Where something is, how it moves, and how it is turned.
@@ -110,16 +111,18 @@ fn lorentz_factor(node: &Node, gamma: f64, reader: &mut Reader<'_>) -> Read<f64>
         return Ok(gamma);
     }
     let place = node.get("gamma").map_or(&node.place, |gamma| &gamma.place);
-    let hint = if gamma < 1.0 { "gamma: 1 is rest, gamma: 2 is 0.866 c" } else { "gamma: 1e8 at most" };
-    Err(reader.fault(place, format!("no Lorentz factor is {gamma}"), hint))
+    if gamma < 1.0 {
+        let what = format!("a Lorentz factor is 1 or more; here is {gamma}");
+        return Err(reader.fault(place, what, "gamma: 2 (1 is rest, 2 is 0.866 c)"));
+    }
+    Err(reader.fault(place, TOO_NEAR, "gamma: 1e8 (at most)"))
 }
 
 fn proper(node: &Node, u: f64, reader: &mut Reader<'_>) -> Read<f64> {
     if u.abs() <= GREATEST_GAMMA {
         return Ok(u);
     }
-    let what = "this is so near the speed of light that the arithmetic cannot follow";
-    Err(reader.fault(&node.place, what, "a Lorentz factor of 1e8, or a rapidity of 19, is the most"))
+    Err(reader.fault(&node.place, TOO_NEAR, "a Lorentz factor of 1e8, or a rapidity of 19, is the most"))
 }
 
 /// A speed along a known path: what comes of it is γβ, negative for the other way round.
@@ -148,15 +151,12 @@ impl Kind for Speed {
         }
         let (numbers, _) = reader.quantity(node, &Self::QUANTITY)?;
         let beta = numbers.first().copied().unwrap_or_default();
-        match Velocity::from_beta(DVec3::X * beta) {
-            Ok(velocity) => Ok(velocity.proper().x),
-            Err(_) => {
-                let text = node.text().unwrap_or_default();
-                let what = format!("`{text}` is {} c, not below the speed of light", rounded(beta));
-                let hint = format!("{}, or {{ gamma: 50 }}", reader.typed("0.99 c"));
-                Err(reader.fault(&node.place, what, hint))
-            }
-        }
+        Velocity::from_beta(DVec3::X * beta).map(|velocity| velocity.proper().x).map_err(|_| {
+            let text = node.text().unwrap_or_default();
+            let what = format!("`{text}` is {} c, not below the speed of light", rounded(beta));
+            let hint = format!("{}, or {{ gamma: 50 }}", reader.typed("0.99 c"));
+            reader.fault(&node.place, what, hint)
+        })
     }
 }
 
@@ -250,8 +250,9 @@ fn turn(node: &Node, reader: &mut Reader<'_>) -> Read<DQuat> {
         let content = Content::Scalar { text: text.trim().to_owned(), quoted: true };
         Node::new(node.place.clone(), content)
     };
-    let angle = super::quantity::Angle::read(&part(angle), reader);
-    let axis = Direction::read(&part(axis), reader);
+    let (before, after) = (format!("{}about ", angle.trim_start()), format!(" about{}", axis.trim_end()));
+    let angle = reader.between("", &after, |reader| Angle::read(&part(angle), reader));
+    let axis = reader.between(&before, "", |reader| Direction::read(&part(axis), reader));
     let (angle, axis) = (angle?, axis?);
     let (sin, cos) = libm::sincos(angle / 2.0);
     Ok(DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos))

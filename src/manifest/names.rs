@@ -2,7 +2,7 @@
 
 use super::Spanned;
 use super::node::Node;
-use super::reader::{Read, Reader, Reported};
+use super::reader::{Read, Reader, Reported, instead};
 use super::record::named_entries;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -64,6 +64,7 @@ pub(crate) fn read_all<T: Nameable>(node: &Node, reader: &mut Reader<'_>) -> Rea
 
 /// What a name stands for.
 pub(crate) fn find<T: Nameable>(name: &Spanned<String>, reader: &mut Reader<'_>) -> Read<Arc<T>> {
+    let suggests = reader.suggests();
     let names = T::names(reader);
     if let Some(known) = names.known.get(&name.value) {
         return known.clone().ok_or(Reported);
@@ -76,9 +77,13 @@ pub(crate) fn find<T: Nameable>(name: &Spanned<String>, reader: &mut Reader<'_>)
         return Err(reader.fault(&name.place, what, "break the circle: write one of them out"));
     }
     let Some(node) = names.written.get(&name.value).cloned() else {
-        let known: Vec<_> = names.written.keys().cloned().collect();
-        let known: Vec<_> = known.iter().map(String::as_str).chain(T::BUILT_IN.iter().copied()).collect();
-        return Err(reader.unknown_name(&name.place, T::WHAT, &name.value, &known, T::UNDER));
+        let known = names.written.keys().map(String::as_str).chain(T::BUILT_IN.iter().copied());
+        let hint = if suggests { instead(&name.value, known, T::UNDER) } else { String::new() };
+        return Err(reader.fault(
+            &name.place,
+            format!("there is no {} named `{}`", T::WHAT, name.value),
+            hint,
+        ));
     };
     names.open.push(name.value.clone());
     let value = reader.under(&name.value, &name.place, |reader| {

@@ -5,7 +5,7 @@ use super::motion::{Placement, Speed};
 use super::node::Node;
 use super::plain::{Direction, Real};
 use super::quantity::{Acceleration, Angle, Length, Point, ViewAngle, Written};
-use super::reader::{Read, Reader};
+use super::reader::{Read, Reader, instead};
 use super::record::{Kind, Shape, choice, record};
 use glam::DVec3;
 
@@ -69,9 +69,8 @@ impl Kind for LookAt {
             [(index, _)] => Ok(Self::Body(Spanned { value: *index, place: node.place.clone() })),
             [] if !Written::of(text).numbers.is_empty() => Ok(Self::Point(Point::read(node, reader)?)),
             [] => {
-                let names = reader.bodies.clone();
-                let names: Vec<_> = names.iter().map(String::as_str).collect();
-                Err(reader.unknown_name(&node.place, "body", text, &names, "bodies"))
+                let hint = instead(text, reader.bodies.iter().map(String::as_str), "bodies");
+                Err(reader.fault(&node.place, format!("there is no body named `{text}`"), hint))
             }
             several => {
                 let what = format!("{} bodies are named `{text}`", several.len());

@@ -1,6 +1,7 @@
 //! Values given on the command line, put into the tree of a manifest before it is read.
 
-use super::node::{self, Content, Entry, Node, Source};
+use super::node::{Content, Entry, Node, Source};
+use super::yaml;
 use crate::error::{Place, Report};
 use std::rc::Rc;
 
@@ -10,7 +11,7 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
     let mut root = root;
     for (path, text) in overrides {
         let before = report.faults.len();
-        if let Some(value) = node::parse(&Source::Command, text, report) {
+        if let Some(value) = yaml::parse(&Source::Command, text, report) {
             let keys: Vec<_> = path.split('.').collect();
             if let Err(why) = set(Rc::make_mut(&mut root), &keys, value) {
                 report.fault(

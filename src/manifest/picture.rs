@@ -224,7 +224,7 @@ impl Kind for Rate {
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
         let rate = Real::read(node, reader)?;
-        if rate >= 1e-3 && rate <= 1000.0 {
+        if (1e-3..=1000.0).contains(&rate) {
             return Ok(rate);
         }
         let hint = reader.typed("24 (above zero, up to 1000)");

@@ -107,7 +107,7 @@ impl<const LEAST: u32, const MOST: u32> Kind for Count<LEAST, MOST> {
 
 /// The number, if it is whole and within bounds.
 pub(crate) fn whole(number: f64, least: u32, most: u32) -> Option<u32> {
-    let within = number >= f64::from(least) && number <= f64::from(most) && number.trunc() == number;
+    let within = number >= f64::from(least) && number <= f64::from(most) && number.fract().abs() <= 0.0;
     within.then_some(number as u32)
 }
 

@@ -49,10 +49,10 @@ impl<'t> Written<'t> {
         Self { numbers, words, rest }
     }
 
-    /// The numbers as written, cut or filled up with zeros to `count`.
-    fn padded(&self, count: usize, example: &str) -> String {
-        if self.words.is_empty() {
-            return example.to_owned();
+    /// The numbers as written, cut or filled up with zeros to `count`; an example if there are none.
+    fn padded(&self, count: usize) -> String {
+        if self.numbers.is_empty() || !self.numbers.iter().all(|x| x.is_finite()) {
+            return example(count);
         }
         let words = self.words.iter().copied().chain(std::iter::repeat("0"));
         words.take(count).collect::<Vec<_>>().join(" ")
@@ -115,9 +115,8 @@ impl Reader<'_> {
 
     /// The numbers of a quantity in house units, and what its unit measures.
     pub(crate) fn quantity(&mut self, node: &Node, quantity: &Quantity) -> Read<(Vec<f64>, Dimension)> {
-        let zeros = vec!["0"; quantity.count - 1].join(" ");
-        let example = format!("{zeros} 1 {}", quantity.unit);
-        let text = self.text(node, quantity.what, example.trim_start())?;
+        let text =
+            self.text(node, quantity.what, &format!("{} {}", example(quantity.count), quantity.unit))?;
         let written = Written::of(text);
         self.countable(node, text, &written, quantity)?;
         let unit = self.unit(node, &written, quantity)?;
@@ -132,7 +131,7 @@ impl Reader<'_> {
     /// Faults too few or too many numbers.
     fn countable(&mut self, node: &Node, text: &str, written: &Written<'_>, quantity: &Quantity) -> Read<()> {
         let (found, count) = (written.numbers.len(), quantity.count);
-        let proposed = format!("{} {}", written.padded(count, "1"), unit_or(written, quantity));
+        let proposed = format!("{} {}", written.padded(count), unit_or(written, quantity));
         self.numeric(node, text, written, quantity.what, &proposed)?;
         if found == count {
             return Ok(());
@@ -178,11 +177,13 @@ impl Reader<'_> {
         if let Some(unit) = units::find(&plain, quantity.dimensions) {
             return Ok(unit);
         }
-        let numbers = written.padded(quantity.count, "1");
+        let numbers = written.padded(quantity.count);
         let all: Vec<_> = quantity.dimensions.iter().map(|dimension| dimension.units()).collect();
         let all = all.join(", ");
         if plain.is_empty() {
-            let hint = self.typed(&format!("{numbers} {}", quantity.unit));
+            // Nobody writes 3e8 and means c.
+            let fast = quantity.unit == "c" && written.numbers.iter().any(|x| x.abs() >= 1.0);
+            let hint = self.typed(&format!("{numbers} {}", if fast { "m/s" } else { quantity.unit }));
             return Err(self.fault(&node.place, format!("{} needs a unit", quantity.what), hint));
         }
         let (what, unit) = match units::dimension_of(&plain) {
@@ -201,10 +202,9 @@ impl Reader<'_> {
 
     /// Bare numbers.
     pub(crate) fn bare(&mut self, node: &Node, what: &str, count: usize) -> Read<Vec<f64>> {
-        let zeros = vec!["0"; count - 1].join(" ");
-        let text = self.text(node, what, format!("{zeros} 1").trim_start())?;
+        let text = self.text(node, what, &example(count))?;
         let written = Written::of(text);
-        let proposed = written.padded(count, "1");
+        let proposed = written.padded(count);
         self.numeric(node, text, &written, what, &proposed)?;
         let hint = self.typed(&proposed);
         if !written.rest.is_empty() {
@@ -220,6 +220,11 @@ impl Reader<'_> {
         }
         Ok(written.numbers)
     }
+}
+
+/// So many numbers.
+fn example(count: usize) -> String {
+    "0 ".repeat(count - 1) + "1"
 }
 
 fn is_extent(dimension: Dimension) -> bool {

@@ -5,10 +5,16 @@ use super::names::Names;
 use super::node::Node;
 use super::spectrum::Spectrum;
 use crate::error::{Place, Report, nearest_name};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Keys within one another, names followed included; deeper means a mistake or an attack.
 const DEEPEST: usize = 96;
+
+/// Faults that are kept; nobody reads more.
+pub(crate) const MOST_FAULTS: usize = 1000;
+/// Characters of a message that are kept.
+const LONGEST_MESSAGE: usize = 400;
 
 /// The speed of light in vacuum, m/s (exact: SI brochure, 9th edition, §2.2).
 pub const LIGHT_SPEED: f64 = 299_792_458.0;
@@ -28,7 +34,7 @@ pub(crate) struct Reader<'a> {
     /// Metres that light travels in a second of this manifest.
     pub(crate) light_speed: f64,
     /// The names under `assets`.
-    pub(crate) assets: Vec<String>,
+    pub(crate) assets: BTreeSet<String>,
     /// The names of the bodies, each under its own name or that of its asset.
     pub(crate) bodies: Vec<String>,
     /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
@@ -36,6 +42,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) spectra: Names<Spectrum>,
     pub(crate) materials: Names<Material>,
     keys: Vec<String>,
+    /// What stands before and after the part of a text that is being read.
+    around: (String, String),
 }
 
 impl<'a> Reader<'a> {
@@ -44,12 +52,13 @@ impl<'a> Reader<'a> {
             report,
             folder,
             light_speed: LIGHT_SPEED,
-            assets: Vec::new(),
+            assets: BTreeSet::new(),
             bodies: Vec::new(),
             ring: false,
             spectra: Names::default(),
             materials: Names::default(),
             keys: Vec::new(),
+            around: (String::new(), String::new()),
         }
     }
 
@@ -60,13 +69,21 @@ impl<'a> Reader<'a> {
         what: impl Into<String>,
         hint: impl Into<String>,
     ) -> Reported {
+        if self.report.faults.len() >= MOST_FAULTS {
+            return Reported;
+        }
         let what = what.into();
         let what = match place {
             Place::Command if !self.keys.is_empty() => format!("--set {}: {what}", self.keys.join(".")),
             _ => what,
         };
-        self.report.fault(place.clone(), what, hint);
+        self.report.fault(place.clone(), shortened(what), shortened(hint.into()));
         Reported
+    }
+
+    /// Whether names that were probably meant are still looked for: not after very many faults.
+    pub(crate) fn suggests(&self) -> bool {
+        self.report.faults.len() < MOST_FAULTS / 20
     }
 
     /// Reads the value of a key, or an item of a list.
@@ -92,10 +109,19 @@ impl<'a> Reader<'a> {
 
     /// `text` as the value of the key being read: what to type.
     pub(crate) fn typed(&self, text: &str) -> String {
+        let (before, after) = &self.around;
         match self.key() {
-            Some(key) => format!("{key}: {text}"),
-            None => text.to_owned(),
+            Some(key) => format!("{key}: {before}{text}{after}"),
+            None => format!("{before}{text}{after}"),
         }
+    }
+
+    /// Reads a part of a text.
+    pub(crate) fn between<T>(&mut self, before: &str, after: &str, read: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.around, (before.to_owned(), after.to_owned()));
+        let value = read(self);
+        self.around = outer;
+        value
     }
 
     /// Faults a value that is not there (`key:`).
@@ -111,30 +137,30 @@ impl<'a> Reader<'a> {
         };
         Err(self.fault(&node.place, format!("`{key}` has no value"), hint))
     }
+}
 
-    /// Faults a name that stands for nothing.
-    pub(crate) fn unknown_name(
-        &mut self,
-        place: &Place,
-        what: &str,
-        name: &str,
-        known: &[&str],
-        where_: &str,
-    ) -> Reported {
-        let hint = match (nearest_name(name, known.iter().copied()), known) {
-            (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-            (None, []) => format!("there are none yet: name it under `{where_}:`"),
-            (None, _) => format!("under `{where_}:` there are {}", listed(known)),
-        };
-        self.fault(place, format!("there is no {what} named `{name}`"), hint)
+/// What to type instead of a name that stands for nothing: the nearest known one, or where names are given.
+pub(crate) fn instead<'n>(name: &str, known: impl Iterator<Item = &'n str> + Clone, under: &str) -> String {
+    if let Some(nearest) = nearest_name(name, known.clone().take(1000)) {
+        return format!("did you mean `{nearest}`?");
+    }
+    let count = known.clone().count();
+    let mut first = known.take(12).collect::<Vec<_>>().join(", ");
+    if count > 12 {
+        first.push_str(&format!(" and {} more", count - 12));
+    }
+    match count {
+        0 => format!("there are none yet: name it under `{under}:`"),
+        _ => format!("under `{under}:` there are {first}"),
     }
 }
 
-/// Names, the first dozen of them.
-fn listed(names: &[&str]) -> String {
-    let first: Vec<_> = names.iter().take(12).copied().collect();
-    let rest = names.len() - first.len();
-    if rest == 0 { first.join(", ") } else { format!("{} and {rest} more", first.join(", ")) }
+/// A message cut to a length that can be read.
+fn shortened(message: String) -> String {
+    match message.char_indices().nth(LONGEST_MESSAGE) {
+        Some((end, _)) => format!("{}…", &message[..end]),
+        None => message,
+    }
 }
 
 /// The rest of the line after a place.

@@ -109,7 +109,7 @@ impl<R: Record> Kind for R {
 /// The entries of a map that is being read as a record.
 pub(crate) struct Entries<'n> {
     pub(crate) node: &'n Node,
-    entries: &'n [Entry],
+    all: &'n [Entry],
     unknown: bool,
     /// Known keys that an unknown one was probably meant to be: not to be missed aloud.
     meant: Vec<&'static str>,
@@ -121,7 +121,7 @@ impl<'n> Entries<'n> {
             let what = format!("{} is a map of keys; this is {}", R::TITLE, node.describe());
             return Err(reader.fault(&node.place, what, keys_hint::<R>()));
         };
-        let mut read = Self { node, entries, unknown: false, meant: Vec::new() };
+        let mut read = Self { node, all: entries, unknown: false, meant: Vec::new() };
         let fields = R::fields();
         for entry in entries {
             if fields.iter().all(|field| field.key != entry.key) {
@@ -133,6 +133,11 @@ impl<'n> Entries<'n> {
 
     fn unknown<R: Record>(&mut self, entry: &Entry, fields: &[Field], reader: &mut Reader<'_>) {
         self.unknown = true;
+        let what = format!("`{}` is not a key of {}", entry.key, R::TITLE);
+        if !reader.suggests() {
+            reader.fault(&entry.key_place, what, "");
+            return;
+        }
         let nearest = nearest_name(&entry.key, fields.iter().map(|field| field.key));
         let nearest = nearest.filter(|key| self.get(key).is_none());
         let hint = match nearest {
@@ -140,12 +145,12 @@ impl<'n> Entries<'n> {
             None => keys_hint::<R>(),
         };
         self.meant.extend(nearest);
-        reader.fault(&entry.key_place, format!("`{}` is not a key of {}", entry.key, R::TITLE), hint);
+        reader.fault(&entry.key_place, what, hint);
     }
 
     /// The entry of a key.
     pub(crate) fn get(&self, key: &str) -> Option<&'n Entry> {
-        self.entries.iter().find(|entry| entry.key == key)
+        self.all.iter().find(|entry| entry.key == key)
     }
 
     /// Whether an unknown key was probably meant to be this one.
@@ -203,16 +208,15 @@ impl<'n> Entries<'n> {
             [] if optional => Ok(None),
             [] if fields.iter().any(|field| self.is_meant(field.key)) => Err(Reported),
             [] => {
-                let hint = fields.first().map_or_else(String::new, |field| {
-                    format!("one of {keys}; for example `{}: {}`", field.key, field.example)
-                });
+                let hint = fields
+                    .first()
+                    .map_or_else(String::new, |field| format!("{}: {}", field.key, field.example));
                 Err(reader.fault(&self.node.place, format!("{title} needs one of {keys}"), hint))
             }
             [one] => Ok(Some(one.key)),
             [first, second, ..] => {
-                let entries =
-                    [first.key, second.key].map(|key| self.entries.iter().position(|e| e.key == key));
-                let later = entries.into_iter().flatten().max().and_then(|at| self.entries.get(at));
+                let entries = [first.key, second.key].map(|key| self.all.iter().position(|e| e.key == key));
+                let later = entries.into_iter().flatten().max().and_then(|at| self.all.get(at));
                 let place = later.map_or(&self.node.place, |entry| &entry.key_place);
                 let what = format!("{title} has both `{}` and `{}`", first.key, second.key);
                 Err(reader.fault(place, what, format!("keep one of {keys}")))
@@ -223,7 +227,7 @@ impl<'n> Entries<'n> {
 
 fn keys_hint<R: Record>() -> String {
     let keys: Vec<_> = R::fields().iter().map(|field| field.key).collect();
-    format!("{} has the keys {}", R::TITLE, keys.join(", "))
+    format!("the keys of {} are {}", R::TITLE, keys.join(", "))
 }
 
 /// A list, each item of one kind.
@@ -274,14 +278,12 @@ impl<K: Kind> Kind for Named<K> {
 
 /// The entries of a map with names of the user's own.
 pub(crate) fn named_entries<'n>(node: &'n Node, reader: &mut Reader<'_>) -> Read<&'n [Entry]> {
-    match &node.content {
-        Content::Map(entries) => Ok(entries),
-        _ => {
-            let key = reader.key().unwrap_or("this").to_owned();
-            let what = format!("`{key}` is a map of names; this is {}", node.describe());
-            Err(reader.fault(&node.place, what, "write `name: ..` for each, indented alike"))
-        }
+    if let Content::Map(entries) = &node.content {
+        return Ok(entries);
     }
+    let key = reader.key().unwrap_or("this").to_owned();
+    let what = format!("`{key}` is a map of names; this is {}", node.describe());
+    Err(reader.fault(&node.place, what, "write `name: ..` for each, indented alike"))
 }
 
 /// Declares a record; see the module.

@@ -36,7 +36,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, String> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = good.iter().filter(|b| **b == b'\n').count() + 1;
+        let line = good.split(|b| *b == b'\n').count();
         format!("it is not UTF-8 text (line {line})")
     })
 }
@@ -123,7 +123,7 @@ fn check(place: &Place, rows: &[Row], reader: &mut Reader<'_>) -> Read<()> {
     let mut sound = Ok(());
     for row in rows {
         let (wavelength, value) = row.numbers;
-        if !(wavelength > 0.0 && wavelength <= 1e12 && value >= 0.0 && value <= 1e30) {
+        if !(wavelength > 0.0 && wavelength <= 1e12 && (0.0..=1e30).contains(&value)) {
             let what = "a wavelength is above zero, a value zero or more, and both are finite";
             sound = Err(reader.fault(&row.place, what, "550, 0.8"));
         }
