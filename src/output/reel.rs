@@ -14,15 +14,23 @@ use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// The quantiser of every picture: the eye finds no fault in sharp edges, and faint noise is kept.
-const QUANTISER: u8 = 18;
+/// The quantiser: sharp edges and faint noise are kept. It must not be much finer: `OpenH264` does not check its
+/// buffer, which holds 12 bits a pixel, while it fills it. The worst picture found (noise of the extreme colours
+/// in every pixel) takes some 10.5 bits at 18, and would overrun it from about 13 down.
+const FINE: u8 = 18;
+
+/// The quantiser of pictures that come to more than the 8 bits a pixel that `OpenH264` accepts in the end, as white
+/// noise does. The worst picture found takes 6.9 bits.
+const COARSE: u8 = 30;
 
 /// A film being coded.
 pub(super) struct Reel {
     path: PathBuf,
     width: usize,
     height: usize,
+    rate: f64,
     encoder: Encoder,
+    quantiser: u8,
     planes: Planes,
     track: Track,
     /// The coded pictures so far. It is declared before its name, so that it is closed before it is removed.
@@ -39,9 +47,8 @@ impl fmt::Debug for Reel {
 impl Reel {
     pub(super) fn create(path: &Path, width: usize, height: usize, rate: f64) -> Result<Self, Error> {
         let planes = Planes::new(width, height);
-        let config = config(width * height, rate);
-        let encoder = Encoder::with_api_config(OpenH264API::from_source(), config)
-            .map_err(|error| Error::machine(path, "starting the encoder", io::Error::other(error)))?;
+        let encoder = encoder(width * height, rate, FINE)
+            .map_err(|source| Error::machine(path, "starting the encoder", source))?;
         let (timescale, duration) = mp4::timing(rate);
         let track = Track {
             width: width.next_multiple_of(2) as u16,
@@ -54,7 +61,8 @@ impl Reel {
         };
         let (name, spool) = Temporary::beside(path)?;
         let spool = BufWriter::with_capacity(1 << 16, spool);
-        Ok(Self { path: path.to_owned(), width, height, encoder, planes, track, spool, _name: name })
+        let path = path.to_owned();
+        Ok(Self { path, width, height, rate, encoder, quantiser: FINE, planes, track, spool, _name: name })
     }
 
     pub(super) fn push(&mut self, rgb: &[u8]) -> Result<(), Error> {
@@ -66,7 +74,29 @@ impl Reel {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "the picture is not of the film's size"));
         }
         self.planes.take(rgb, self.width, self.height);
-        let coded = self.encoder.encode(&self.planes).map_err(io::Error::other)?;
+        if self.quantiser == COARSE && self.track.samples.len().is_multiple_of(group(self.rate)) {
+            self.restart(FINE)?;
+        }
+        match self.encode() {
+            Err(error) if error.kind() == io::ErrorKind::InvalidData && self.quantiser == FINE => {
+                self.restart(COARSE)?;
+                self.encode()
+            }
+            done => done,
+        }
+    }
+
+    /// A new encoder, as one is of no use after an error. It begins with a key picture.
+    fn restart(&mut self, quantiser: u8) -> io::Result<()> {
+        self.encoder = encoder(self.width * self.height, self.rate, quantiser)?;
+        self.quantiser = quantiser;
+        Ok(())
+    }
+
+    /// Codes the planes; `InvalidData`, and nothing written, if the encoder cannot.
+    fn encode(&mut self) -> io::Result<()> {
+        let refused = |error| io::Error::new(io::ErrorKind::InvalidData, error);
+        let coded = self.encoder.encode(&self.planes).map_err(refused)?;
         let key = coded.frame_type() == FrameType::IDR;
         if !key && coded.frame_type() != FrameType::P {
             return Err(io::Error::other("the encoder left out a picture"));
@@ -107,25 +137,31 @@ impl Reel {
     }
 }
 
+/// Pictures from one key picture to the next.
+fn group(rate: f64) -> usize {
+    rate.round().clamp(1.0, 1000.0) as usize
+}
+
 /// Buffer-based rate control is, without a receiver that reports its buffer, a constant quantiser; the true
 /// quality mode changes it with a guess at the bit rate, and prints a warning when it may not leave pictures out.
-fn config(pixels: usize, rate: f64) -> EncoderConfig {
-    // The encoder knows rates from 1 to 60, and only derives the level from them and the bit rate.
-    let rate = rate.clamp(1.0, 60.0);
-    let bits = (0.5 * pixels as f64 * rate).clamp(1e5, 2.4e8);
-    EncoderConfig::new()
+fn encoder(pixels: usize, rate: f64, quantiser: u8) -> io::Result<Encoder> {
+    // From bit rate and pictures a second (of which it knows 1 to 60) the encoder only derives the level.
+    let known = rate.clamp(1.0, 60.0);
+    let bits = (0.5 * pixels as f64 * known).clamp(1e5, 2.4e8);
+    let config = EncoderConfig::new()
         .rate_control_mode(RateControlMode::Bufferbased)
-        .qp(QpRange::new(QUANTISER, QUANTISER))
+        .qp(QpRange::new(quantiser, quantiser))
         .bitrate(BitRate::from_bps(bits as u32))
-        .max_frame_rate(FrameRate::from_hz(rate as f32))
+        .max_frame_rate(FrameRate::from_hz(known as f32))
         .skip_frames(false)
         .adaptive_quantization(false)
         .background_detection(false)
         .num_threads(1)
         .profile(Profile::High)
         .complexity(Complexity::Medium)
-        .intra_frame_period(IntraFramePeriod::from_num_frames(rate.round() as u32))
-        .vui(VuiConfig::bt709())
+        .intra_frame_period(IntraFramePeriod::from_num_frames(group(rate) as u32))
+        .vui(VuiConfig::bt709());
+    Encoder::with_api_config(OpenH264API::from_source(), config).map_err(io::Error::other)
 }
 
 /// A NAL unit without the start code before it.
