@@ -140,10 +140,14 @@ impl Tree {
     /// Takes over obvhs's nodes, children's boxes moved into their parents, with an explicit stack (a degenerate
     /// tree may be as deep as it has items).
     fn adopt(&mut self, built: &obvhs::bvh2::Bvh2, groups: &Groups) {
-        let nothing = Node { lo: [Vec3::MAX; 2], hi: [Vec3::MIN; 2], first: [0; 2], count: [0; 2] };
+        // A box at infinity is met by no line: the second child of a root that is itself a leaf.
+        let nothing = Node { lo: [Vec3::INFINITY; 2], hi: [Vec3::INFINITY; 2], first: [0; 2], count: [0; 2] };
         self.nodes.push(nothing);
+        let root = &built.nodes[0];
+        let children = root.first_index as usize;
         // (obvhs's node, our parent, which child of it)
-        let mut open = vec![(0_usize, 0_usize, 0_usize)];
+        let mut open =
+            if root.prim_count > 0 { vec![(0, 0, 0)] } else { vec![(children + 1, 0, 1), (children, 0, 0)] };
         while let Some((source, parent, side)) = open.pop() {
             let node = &built.nodes[source];
             let begin = node.first_index as usize;
