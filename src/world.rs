@@ -26,7 +26,12 @@ pub struct Placed {
 
 impl Placed {
     /// Places a mesh; none if the map is singular (then nothing of it can be seen).
-    pub fn new(triangles: Arc<Triangles>, rest_from_mesh: DAffine3, body: u32, surfaces: u32) -> Option<Self> {
+    pub fn new(
+        triangles: Arc<Triangles>,
+        rest_from_mesh: DAffine3,
+        body: u32,
+        surfaces: u32,
+    ) -> Option<Self> {
         let mesh_from_rest = rest_from_mesh.inverse();
         // Normals go with the inverse transpose, mirrored meshes included: their outside stays outside.
         let rest_from_mesh_normals = mesh_from_rest.matrix3.transpose();
