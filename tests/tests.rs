@@ -5,7 +5,13 @@ mod support;
 
 mod aberration;
 mod boost;
+mod delay;
 mod doppler;
 mod furnace;
+mod lamp;
+mod mirror;
 mod radiance;
+mod shadow;
+mod terrell;
 mod velocity;
+mod worldline;
