@@ -64,7 +64,11 @@ impl Paint {
         {
             multiply(color);
         }
-        if rgb[0] == rgb[1] && rgb[1] == rgb[2] { Reflectance::Constant(rgb[0]) } else { Reflectance::Rgb(rgb) }
+        if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
+            Reflectance::Constant(rgb[0])
+        } else {
+            Reflectance::Rgb(rgb)
+        }
     }
 }
 

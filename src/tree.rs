@@ -127,7 +127,8 @@ impl Tree {
             groups.first.iter().map(|&i| unit[i as usize]).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
         let mut seconds = Duration::ZERO;
         let built = build_bvh2(&boxed, BvhBuildParams::medium_build(), &mut seconds);
-        let mut tree = Self { bounds, centre, scale, nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
+        let mut tree =
+            Self { bounds, centre, scale, nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
         tree.adopt(&built, &groups);
         tree
     }

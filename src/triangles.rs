@@ -27,8 +27,11 @@ pub struct Triangles {
 impl Triangles {
     /// Builds the tree.
     pub fn new(mesh: Arc<Mesh>) -> Self {
-        let boxes: Vec<Bounds> =
-            mesh.triangles.iter().map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3()))).collect();
+        let boxes: Vec<Bounds> = mesh
+            .triangles
+            .iter()
+            .map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3())))
+            .collect();
         Self { tree: Tree::build(&boxes), mesh }
     }
 

@@ -26,7 +26,12 @@ pub struct Placed {
 
 impl Placed {
     /// Places a mesh; none if the map is singular (then nothing of it can be seen).
-    pub fn new(triangles: Arc<Triangles>, rest_from_mesh: DAffine3, body: u32, surfaces: u32) -> Option<Self> {
+    pub fn new(
+        triangles: Arc<Triangles>,
+        rest_from_mesh: DAffine3,
+        body: u32,
+        surfaces: u32,
+    ) -> Option<Self> {
         let mesh_from_rest = rest_from_mesh.inverse();
         // Normals go with the inverse transpose, mirrored meshes included: their outside stays outside.
         let rest_from_mesh_normals = mesh_from_rest.matrix3.transpose();
@@ -151,6 +156,8 @@ pub struct Spot {
     pub facet_normal: DVec3,
     /// The interpolated normal, on the same side.
     pub normal: DVec3,
+    // The largest coordinates that the place was computed from: its rounding is a part of them.
+    size: f64,
 }
 
 impl Hit<'_> {
@@ -168,7 +175,11 @@ impl Hit<'_> {
         let corner_normals = mesh.triangles[self.meeting.triangle as usize]
             .map(|i| mesh.normals.get(i as usize).map_or(DVec3::ZERO, |n| n.as_dvec3()));
         let normal = unit(self.placed.rest_from_mesh_normals * self.mix(corner_normals), facet) * side;
-        Spot { event: Event::new(t, x), k, facet_normal: facet * side, normal }
+        // The corners' coordinates may cancel, within the mesh and with its place: what is left is no measure of rounding.
+        let size = |corner: DVec3| self.placed.rest_from_mesh.transform_vector3(corner).abs().max_element();
+        let size = corners.map(size).into_iter().fold(0.0, f64::max)
+            + self.placed.rest_from_mesh.translation.abs().max_element();
+        Spot { event: Event::new(t, x), k, facet_normal: facet * side, normal, size }
     }
 
     /// Number of the surface met.
@@ -216,7 +227,7 @@ impl Spot {
         let bound = 64.0
             * f64::EPSILON
             * gamma
-            * (gamma * size(self.event.t, self.event.x) + size(origin.t, origin.x));
+            * (gamma * (self.size + size(self.event.t, self.event.x)) + size(origin.t, origin.x));
         let event = Event::new(self.event.t, self.event.x + self.facet_normal * bound);
         rest.rest_from_lab.undo(event)
     }

@@ -1,8 +1,26 @@
 //! The laws and requirements that the program is held to, a module for each.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod aberration;
+mod boost;
+mod delay;
+mod doppler;
+mod effects;
+mod equivalence;
+mod film;
+mod furnace;
 mod import;
+mod lamp;
 mod manifest;
+mod mirror;
 #[cfg(feature = "video")]
 mod movie;
 mod output;
+mod radiance;
+mod shadow;
+mod spectrum;
+mod support;
+mod terrell;
+mod tree;
+mod velocity;
+mod worldline;

@@ -97,9 +97,8 @@ impl WorldBuilder {
 
     /// Builds the trees over the bodies.
     pub fn build(self) -> World {
-        let rest = |(placement, placed): (Placement, Vec<Placed>)| {
-            RestFrame::new(placement.rest_from_lab(), placed)
-        };
+        let rest =
+            |(placement, placed): (Placement, Vec<Placed>)| RestFrame::new(placement.rest_from_lab(), placed);
         World { frames: self.frames.into_iter().map(rest).collect() }
     }
 }

@@ -1,0 +1,214 @@
+//! From light to the numbers of a picture.
+
+use crate::support::{
+    Body, Dice, Eye, Stage, beta, black_body, built, close, coloured, cube, diffuse, flat, glowing, icosphere, look, near,
+    near_vector, pixel_centre, v,
+};
+use glam::{DVec2, DVec3};
+use terrell::color::{RGB_FROM_XYZ, XYZ_FROM_RGB, srgb_decode, srgb_encode};
+use terrell::exposure::{Sampling, expose, first_hits};
+use terrell::film::{Development, Negative, Reconstruction, meter};
+use terrell::scene::Scene;
+use terrell::spacetime::Velocity;
+use terrell::spectrum::Wavelengths;
+
+const FILTERS: [Reconstruction; 3] = [Reconstruction::Box, Reconstruction::Tent, Reconstruction::Gaussian];
+
+fn scene() -> Scene {
+    let mut stage = Stage::of([
+        Body::new(&built(coloured(cube())), diffuse(0.5)).at(-6.0, v(0.5, 0.2, -6.0)).moving(beta(0.6, 0.3, -0.1)),
+        Body::new(&built(icosphere(3)), glowing(black_body(4000.0))).at(0.0, v(-1.5, -0.5, -6.0)),
+    ]);
+    stage.ambient = Some(flat(50.0));
+    stage.seen_by(&Eye::at(0.0, DVec3::ZERO).moving(beta(0.1, 0.0, 0.2)))
+}
+
+fn sampled(samples: u32, reconstruction: Reconstruction, wavelengths: u32) -> Negative {
+    let scene = scene();
+    let sampling = Sampling { width: 41, height: 30, samples, reconstruction, wavelengths };
+    expose(&scene, &scene.observer.view(0.0, 41, 30), &sampling)
+}
+
+#[test]
+fn single_sample_is_the_centre_of_the_pixel() {
+    for filter in FILTERS {
+        assert_eq!(filter.offsets(1), [DVec2::ZERO]);
+    }
+    let (scene, negative) = (scene(), sampled(1, Reconstruction::Tent, 64));
+    let view = scene.observer.view(0.0, 41, 30);
+    for (number, xyz) in negative.xyz.iter().enumerate() {
+        let light = look(&scene, &view.ray(pixel_centre(number, 41)));
+        let expected = Wavelengths::<64>::new().xyz(&light.radiance) + light.lines;
+        near_vector(DVec3::from(xyz.map(f64::from)), expected, 1e-6 * expected.length());
+    }
+}
+
+#[test]
+fn samples_lie_evenly_about_the_centre() {
+    for filter in FILTERS {
+        // Standard deviation of one coordinate: box 1/√12, tent 1/√6, Gaussian 1/2 (a little less, being cut).
+        let spread = match filter {
+            Reconstruction::Box => (1.0 / 12.0_f64).sqrt(),
+            Reconstruction::Tent => (1.0 / 6.0_f64).sqrt(),
+            Reconstruction::Gaussian => 0.493_1,
+        };
+        for samples in [2, 3, 4, 16, 25, 64, 1000] {
+            let offsets = filter.offsets(samples);
+            assert_eq!(offsets.len(), samples as usize);
+            let mean = offsets.iter().sum::<DVec2>() / f64::from(samples);
+            near(mean.length(), 0.0, 1e-14);
+            if samples >= 64 {
+                let square = offsets.iter().map(|o| *o * *o).sum::<DVec2>() / f64::from(samples);
+                near(square.x.sqrt(), spread, 0.01);
+                near(square.y.sqrt(), spread, 0.02);
+            }
+        }
+    }
+}
+
+#[test]
+fn constant_light_stays_constant_under_any_filter() {
+    let sky = Body::new(&built(icosphere(1)), glowing(black_body(5000.0))).sized(10.0);
+    let scene = Stage::of([sky]).scene();
+    for reconstruction in FILTERS {
+        for samples in [1, 4, 7, 16] {
+            let sampling = Sampling { width: 9, height: 5, samples, reconstruction, wavelengths: 8 };
+            let negative = expose(&scene, &scene.observer.view(0.0, 9, 5), &sampling);
+            let expected = Wavelengths::<8>::new().xyz(&Wavelengths::<8>::new().nm.map(|nm| terrell::spectrum::planck(nm, 5000.0)));
+            for xyz in &negative.xyz {
+                near_vector(DVec3::from(xyz.map(f64::from)), expected, 1e-6 * expected.length());
+            }
+        }
+    }
+}
+
+#[test]
+fn picture_has_the_same_bits_on_any_number_of_threads() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| sampled(4, Reconstruction::Gaussian, 16))
+    };
+    let bits = |negative: &Negative| negative.xyz.iter().map(|xyz| xyz.map(f32::to_bits)).collect::<Vec<_>>();
+    let one = bits(&on(1));
+    assert!(one.iter().any(|xyz| xyz[1] != 0));
+    assert_eq!(one, bits(&on(2)));
+    assert_eq!(one, bits(&on(5)));
+}
+
+/// More wavelengths, more samples: the same picture, more exactly.
+#[test]
+fn wavelengths_and_samples_converge() {
+    let total = |negative: &Negative| negative.xyz.iter().map(|xyz| f64::from(xyz[1])).sum::<f64>();
+    let fine = total(&sampled(64, Reconstruction::Box, 64));
+    close(total(&sampled(64, Reconstruction::Box, 16)), fine, 0.01);
+    close(total(&sampled(64, Reconstruction::Box, 8)), fine, 0.04);
+    close(total(&sampled(16, Reconstruction::Box, 64)), fine, 0.01);
+    close(total(&sampled(64, Reconstruction::Gaussian, 64)), fine, 0.01);
+}
+
+#[test]
+fn first_hits_tell_the_body_of_each_pixel() {
+    let scene = scene();
+    let view = scene.observer.view(0.0, 41, 30);
+    let bodies = first_hits(&scene, &view, 41, 30);
+    let negative = sampled(1, Reconstruction::Box, 8);
+    assert_eq!(bodies.len(), negative.xyz.len());
+    for (first, xyz) in bodies.iter().zip(&negative.xyz) {
+        assert_eq!(first.is_some(), xyz[1] > 0.0);
+        if let Some(first) = first {
+            // On the past light cone of the observer.
+            let way = first.emission - view.tetrad.event;
+            near(way.dot(way), 0.0, 1e-9);
+        }
+    }
+    for body in [0, 1] {
+        assert!(bodies.iter().flatten().filter(|first| first.body == body).count() > 20);
+    }
+}
+
+#[test]
+fn display_never_leaves_its_range_and_brighter_stays_brighter() {
+    let mut dice = Dice(6);
+    let development = Development { white: 100.0 };
+    for _ in 0..300 {
+        // Any real light: also colours that no screen shows.
+        let nm = dice.between(400.0, 690.0);
+        let colour = terrell::color::matching(nm) + terrell::color::matching(dice.between(400.0, 690.0)) * dice.part();
+        let mut before = -1.0;
+        for step in 0..60 {
+            let rgb = development.display(colour / colour.y * libm::exp(f64::from(step) * 0.3 - 6.0));
+            assert!(rgb.min_element() >= 0.0 && rgb.max_element() <= 1.0);
+            let y = (*XYZ_FROM_RGB * rgb).y;
+            assert!(y >= before - 1e-12, "{y} after {before}");
+            before = y;
+        }
+        near(before, 1.0, 1e-6);
+    }
+}
+
+#[test]
+fn colours_that_the_screen_can_show_are_shown_as_they_are() {
+    let development = Development { white: 250.0 };
+    for rgb in [v(0.1, 0.7, 0.2), v(0.5, 0.5, 0.5), v(0.0, 0.3, 0.0), v(0.79, 0.79, 0.79)] {
+        near_vector(development.display(*XYZ_FROM_RGB * rgb * 250.0), rgb, 1e-12);
+    }
+    for black in [DVec3::ZERO, v(0.0, -1.0, 0.0), DVec3::NAN, DVec3::INFINITY] {
+        assert_eq!(development.display(black), DVec3::ZERO);
+    }
+}
+
+/// A grey goes through the shoulder without colour and without a step.
+#[test]
+fn shoulder_is_smooth_and_grey_stays_grey() {
+    let development = Development { white: 1.0 };
+    let white = *XYZ_FROM_RGB * DVec3::ONE;
+    let (mut before, mut slope) = (0.0, 1.0);
+    for step in 1..400 {
+        let y = f64::from(step) * 0.01;
+        let rgb = development.display(white * y);
+        near(rgb.max_element() - rgb.min_element(), 0.0, 1e-12);
+        let rise = (rgb.y - before) / 0.01;
+        assert!(rise <= slope + 1e-9 && rise >= 0.0, "at {y}: {rise} after {slope}");
+        assert!(slope - rise < 0.06);
+        (before, slope) = (rgb.y, rise);
+    }
+}
+
+#[test]
+fn bytes_are_the_nearest_ones() {
+    let white = *XYZ_FROM_RGB * DVec3::ONE;
+    let greys: Vec<f64> = (0..2000).map(|i| f64::from(i) * 0.0004).collect();
+    let xyz = greys.iter().map(|grey| (white * *grey).as_vec3().to_array()).collect();
+    let negative = Negative { width: 2000, height: 1, xyz };
+    let bytes = Development { white: 1.0 }.develop(&negative);
+    for (i, grey) in greys.iter().enumerate() {
+        let exact = srgb_encode(*grey) * 255.0;
+        assert!((f64::from(bytes[3 * i]) - exact).abs() < 0.501, "{grey}");
+    }
+}
+
+#[test]
+fn encoding_is_undone_by_decoding() {
+    for i in 0..=1000 {
+        let value = f64::from(i) / 1000.0;
+        near(srgb_decode(srgb_encode(value)), value, 1e-7);
+    }
+    near(srgb_encode(0.214_041_14), 0.5, 1e-6);
+}
+
+#[test]
+fn meter_puts_even_light_at_middle_grey() {
+    let white = meter([3.0; 50]).unwrap();
+    close(3.0 / white, 0.18, 1e-12);
+    close(meter([1.0, 100.0, 0.0, f64::NAN]).unwrap() * 0.18, 10.0, 1e-12);
+    assert!(meter([0.0, 0.0]).is_none());
+}
+
+#[test]
+fn matrices_of_colour_undo_each_other() {
+    near_vector(*RGB_FROM_XYZ * (*XYZ_FROM_RGB * v(0.2, 0.5, 0.9)), v(0.2, 0.5, 0.9), 1e-14);
+    near((*XYZ_FROM_RGB * DVec3::ONE).y, 1.0, 1e-14);
+    // IEC 61966-2-1: luminance of the primaries.
+    near_vector((*XYZ_FROM_RGB).row(1), v(0.2126, 0.7152, 0.0722), 2e-4);
+    assert!(Velocity::REST.gamma() > 0.0);
+}
