@@ -22,7 +22,8 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
 fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     let placed = || scene.world.frames.iter().flat_map(|rest| &rest.placed);
     let shown: usize = placed().map(|placed| placed.triangles.mesh.triangles.len()).sum();
-    let mut meshes: Vec<*const _> = placed().map(|placed| std::sync::Arc::as_ptr(&placed.triangles)).collect();
+    let mut meshes: Vec<*const _> =
+        placed().map(|placed| std::sync::Arc::as_ptr(&placed.triangles)).collect();
     meshes.sort_unstable();
     meshes.dedup();
     let mirrors = scene.surfaces.iter().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));

@@ -46,7 +46,11 @@ fn as_text(asset: &Asset) -> String {
         let depth = std::iter::successors(asset.nodes[number].parent, |up| asset.nodes[*up].parent).count();
         let things = contents(asset, number).join(", ");
         let indent = "  ".repeat(depth.min(40) + 1);
-        text += &format!("{indent}{}{}{things}\n", name(&asset.nodes[number].name), if things.is_empty() { "" } else { ": " });
+        text += &format!(
+            "{indent}{}{}{things}\n",
+            name(&asset.nodes[number].name),
+            if things.is_empty() { "" } else { ": " }
+        );
     }
     text += "\nmaterials\n";
     for material in &asset.materials {
@@ -72,10 +76,9 @@ fn contents(asset: &Asset, node: usize) -> Vec<String> {
         LightKind::Sun => format!("sun, {:.4} lx", light.intensity),
     });
     let cameras = asset.cameras.iter().filter(|camera| camera.node == node).map(|camera| {
-        let kind = camera.vertical_fov.map_or_else(
-            || "orthographic".to_owned(),
-            |fov| format!("{:.1} deg high", fov.to_degrees()),
-        );
+        let kind = camera
+            .vertical_fov
+            .map_or_else(|| "orthographic".to_owned(), |fov| format!("{:.1} deg high", fov.to_degrees()));
         format!("camera {}, {kind}", name(&camera.name))
     });
     meshes.chain(lights).chain(cameras).collect()
@@ -118,8 +121,10 @@ fn as_json(asset: &Asset) -> Value {
     let materials: Vec<Value> = asset
         .materials
         .iter()
-        .map(|m| json!({ "name": m.name, "base_color": m.base_color, "emissive": m.emissive, "unlit": m.unlit,
-            "textured": m.base_texture.is_some() }))
+        .map(|m| {
+            json!({ "name": m.name, "base_color": m.base_color, "emissive": m.emissive, "unlit": m.unlit,
+            "textured": m.base_texture.is_some() })
+        })
         .collect();
     let meshes: Vec<Value> = asset
         .meshes

@@ -22,7 +22,8 @@ impl Progress {
     /// For so many pictures of a film.
     pub(super) fn start(plan: &Plan, pictures: usize) -> Self {
         let gauge = std::io::stderr().is_terminal().then(|| {
-            let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}  {elapsed} gone, {eta} left  {msg}");
+            let style =
+                ProgressStyle::with_template("{wide_bar} {pos}/{len}  {elapsed} gone, {eta} left  {msg}");
             ProgressBar::new(pictures as u64)
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
                 .with_message(plan.folder.display().to_string())

@@ -51,11 +51,7 @@ pub(super) fn placement(written: &manifest::Placement) -> Placement {
 }
 
 fn effects(written: &manifest::Effects) -> Effects {
-    Effects {
-        aberration: written.aberration,
-        doppler: written.doppler,
-        searchlight: written.searchlight,
-    }
+    Effects { aberration: written.aberration, doppler: written.doppler, searchlight: written.searchlight }
 }
 
 /// What the bodies put together.
@@ -91,7 +87,8 @@ impl Gathered {
             let rest_from_mesh = rest_from_asset * instance.asset_from_mesh;
             self.world.add(number, placement, triangles, rest_from_mesh, first_surface);
         }
-        let lights = model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
+        let lights =
+            model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
         self.lamps.extend(lights.map(|light| light::from_file(light, placement, rest_from_asset)));
     }
 }
@@ -103,7 +100,8 @@ fn surfaces(body: &manifest::Body, asset: &import::Asset, report: &mut Report) -
         None => asset.materials.iter().map(imported_surface).collect(),
     };
     for (name, material) in &body.materials {
-        let named: Vec<usize> = (0..surfaces.len()).filter(|i| asset.materials[*i].name == name.value).collect();
+        let named: Vec<usize> =
+            (0..surfaces.len()).filter(|i| asset.materials[*i].name == name.value).collect();
         if named.is_empty() {
             let known = asset.materials.iter().map(|m| m.name.as_str()).filter(|name| !name.is_empty());
             let hint = match crate::error::nearest_name(&name.value, known.clone()) {
@@ -151,11 +149,8 @@ fn imported_surface(material: &import::Material) -> Surface {
         return Surface { scatter: Scatter::Absorb, glow };
     }
     let emits = material.emissive.iter().any(|channel| *channel > 0.0);
-    let emitted = Paint {
-        color: material.emissive,
-        texture: material.emissive_texture.clone(),
-        vertex_colors: false,
-    };
+    let emitted =
+        Paint { color: material.emissive, texture: material.emissive_texture.clone(), vertex_colors: false };
     let glow = emits.then(|| white(1.0)).flatten().map(|radiance| Glow { radiance, paint: Some(emitted) });
     Surface { scatter: Scatter::Painted(base), glow }
 }

@@ -44,8 +44,10 @@ impl Models {
         files.sort_unstable();
         files.dedup();
         let folder = manifest_path.parent().unwrap_or(Path::new(""));
-        let read: Vec<Result<Model, Error>> =
-            files.par_iter().map(|file| import::load(file, trusted_folder(file, folder)).map(Model::new)).collect();
+        let read: Vec<Result<Model, Error>> = files
+            .par_iter()
+            .map(|file| import::load(file, trusted_folder(file, folder)).map(Model::new))
+            .collect();
         let mut models = BTreeMap::new();
         for (file, model) in files.into_iter().zip(read) {
             match model {
