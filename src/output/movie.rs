@@ -1,8 +1,8 @@
 //! Films: H.264 in MP4, encoded by the built-in `OpenH264`.
 //!
 //! BT.709 limited range, 4:2:0, High profile with a constant quantiser, a key picture every second. Coded pictures
-//! go to a passing file beside the film, so a film of any length needs the memory of one picture. One
-//! thread does the coding: the same pictures give the same bytes.
+//! go to a passing file beside the film, so a film of any length needs the memory of one picture (and, while it is
+//! finished, twice its size on the disk). One thread does the coding: the same pictures give the same bytes.
 
 #[cfg(feature = "video")]
 use super::reel::Reel;
