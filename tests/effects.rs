@@ -1,8 +1,8 @@
 //! Effects switched off: exactly that factor is one, and nothing else changes.
 
 use crate::support::{
-    Body, Eye, Lantern, Stage, angle, beta, black_body, built, close, diffuse, flat, glowing, icosphere, light_to, look, near,
-    speed, square, v,
+    Body, Eye, Lantern, Stage, angle, beta, black_body, built, close, diffuse, flat, glowing, icosphere,
+    light_to, look, near, speed, square, v,
 };
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! From light to the numbers of a picture.
 
 use crate::support::{
-    Body, Dice, Eye, Stage, beta, black_body, built, close, coloured, cube, diffuse, flat, glowing, icosphere, look, near,
-    near_vector, pixel_centre, v,
+    Body, Dice, Eye, Stage, beta, black_body, built, close, coloured, cube, diffuse, flat, glowing,
+    icosphere, look, near, near_vector, pixel_centre, v,
 };
 use glam::{DVec2, DVec3};
 use terrell::color::{RGB_FROM_XYZ, XYZ_FROM_RGB, srgb_decode, srgb_encode};
@@ -16,7 +16,9 @@ const FILTERS: [Reconstruction; 3] = [Reconstruction::Box, Reconstruction::Tent,
 
 fn scene() -> Scene {
     let mut stage = Stage::of([
-        Body::new(&built(coloured(cube())), diffuse(0.5)).at(-6.0, v(0.5, 0.2, -6.0)).moving(beta(0.6, 0.3, -0.1)),
+        Body::new(&built(coloured(cube())), diffuse(0.5))
+            .at(-6.0, v(0.5, 0.2, -6.0))
+            .moving(beta(0.6, 0.3, -0.1)),
         Body::new(&built(icosphere(3)), glowing(black_body(4000.0))).at(0.0, v(-1.5, -0.5, -6.0)),
     ]);
     stage.ambient = Some(flat(50.0));
@@ -74,7 +76,8 @@ fn constant_light_stays_constant_under_any_filter() {
         for samples in [1, 4, 7, 16] {
             let sampling = Sampling { width: 9, height: 5, samples, reconstruction, wavelengths: 8 };
             let negative = expose(&scene, &scene.observer.view(0.0, 9, 5), &sampling);
-            let expected = Wavelengths::<8>::new().xyz(&Wavelengths::<8>::new().nm.map(|nm| terrell::spectrum::planck(nm, 5000.0)));
+            let expected = Wavelengths::<8>::new()
+                .xyz(&Wavelengths::<8>::new().nm.map(|nm| terrell::spectrum::planck(nm, 5000.0)));
             for xyz in &negative.xyz {
                 near_vector(DVec3::from(xyz.map(f64::from)), expected, 1e-6 * expected.length());
             }
@@ -133,7 +136,8 @@ fn display_never_leaves_its_range_and_brighter_stays_brighter() {
     for _ in 0..300 {
         // Any real light: also colours that no screen shows.
         let nm = dice.between(400.0, 690.0);
-        let colour = terrell::color::matching(nm) + terrell::color::matching(dice.between(400.0, 690.0)) * dice.part();
+        let colour =
+            terrell::color::matching(nm) + terrell::color::matching(dice.between(400.0, 690.0)) * dice.part();
         let mut before = -1.0;
         for step in 0..60 {
             let rgb = development.display(colour / colour.y * libm::exp(f64::from(step) * 0.3 - 6.0));

@@ -479,6 +479,13 @@ pub(crate) fn light_to(place: DVec3, departure: Event) -> SightRay {
     light_from(departure.x, Event::new(departure.t + distance, place))
 }
 
+/// The light that goes from a place in a rest frame to an event there, as the lab sees it: s is 1 at the place.
+pub(crate) fn light_at_rest(rest_from_lab: &Poincare<Rest>, place: DVec3, arrival: Event<Rest>) -> SightRay {
+    let way = arrival.x - place;
+    let k = FourVector::<Rest>::new(way.length(), way);
+    SightRay { event: rest_from_lab.undo(arrival), k: rest_from_lab.boost().inverse() * k }
+}
+
 /// What comes along a sight ray, at 64 wavelengths.
 pub(crate) fn look(scene: &Scene, ray: &SightRay) -> Light<64> {
     scene.lit().seen(ray, &Wavelengths::new())

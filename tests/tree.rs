@@ -1,7 +1,7 @@
 //! Trees find what trying every triangle finds, at every size, and nothing slips through a closed mesh.
 
 use crate::support::{
-    Body, Dice, Stage, angle, black, built, cube, icosphere, light_from, near, soup, speed, v,
+    Body, Dice, Stage, angle, black, built, cube, icosphere, light_at_rest, light_from, near, soup, speed, v,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
@@ -216,10 +216,8 @@ fn nothing_slips_into_a_closed_ball_that_flies_by() {
             let target = if i % 3 == 0 { a } else { a.lerp(b, if i % 3 == 1 { 0.5 } else { dice.part() }) };
             // A light from that place of the rest frame to somewhere on its own side, well above the surface.
             let to = target * 3.0 + dice.in_cube();
-            let way = (to - target) * size;
-            let k = terrell::spacetime::FourVector::new(way.length(), way);
-            let event = into.undo(Event::new(way.length(), to * size));
-            let ray = terrell::spacetime::SightRay { event, k: into.boost().inverse() * k };
+            let arrival = Event::new((to - target).length() * size, to * size);
+            let ray = light_at_rest(&into, target * size, arrival);
             let hit = scene.world.nearest(&ray);
             // Met at s = 1, not on the far side behind it.
             let s = hit.map_or(f64::INFINITY, |hit| hit.s);
@@ -361,11 +359,9 @@ fn bodies_of_one_frame_are_found_through_their_tree() {
     let into = scene.world.frames[0].rest_from_lab;
     for _ in 0..2000 {
         let event = Event::new(0.0, dice.direction() * 90.0);
-        let eye = into.undo(event);
         let target = dice.in_cube() * 40.0;
         let way = event.x - target;
-        let k = terrell::spacetime::FourVector::new(way.length(), way);
-        let ray = terrell::spacetime::SightRay { event: eye, k: into.boost().inverse() * k };
+        let ray = light_at_rest(&into, target, event);
         let met = places.iter().enumerate().filter_map(|(number, place)| {
             // A unit sphere: where the line enters it.
             let from = *place - event.x;
