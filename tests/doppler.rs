@@ -5,8 +5,8 @@
 //! ~~~
 
 use crate::support::{
-    Body, Dice, Eye, Stage, angle, black_body, built, close, edge, first, glowing, icosphere, light_from,
-    line, look, near, near_vector, speed, v,
+    Body, Dice, Eye, Stage, black_body, built, close, edge, first, glowing, icosphere, light_from, line,
+    look, near, near_vector, speed, v,
 };
 use glam::{DQuat, DVec3};
 use terrell::color::{LUMENS_PER_WATT, matching};
@@ -140,5 +140,18 @@ fn sodium_line_arrives_at_its_shifted_wavelength() {
         near_vector(light.lines, expected, expected.length() * 1e-9);
         assert!(light.radiance.iter().all(|value| *value == 0.0), "a line is no sample");
     }
-    assert!(angle(v(1.0, 0.0, 0.0), FORWARD) > 0.1);
+}
+
+/// Ahead at γ = 1e6: 1/[γ(1 - β cos θ')] with 1 - β = 1/[γ²(1 + β)] and 1 - cos θ' = 2 sin²(θ'/2).
+#[test]
+fn doppler_factor_ahead_keeps_the_digits_that_gamma_squared_leaves() {
+    for gamma in [1e2, 1e4, 1e6] {
+        let (scene, eye) = under_the_sky(Velocity::from_gamma(gamma, FORWARD));
+        for theta in [0.0, 0.5 / gamma, 20.0 / gamma, 0.7] {
+            let beta = ((gamma - 1.0) * (gamma + 1.0)).sqrt() / gamma;
+            let missing = 1.0 / (gamma * gamma * (1.0 + beta)) + 2.0 * beta * libm::sin(0.5 * theta).powi(2);
+            let doppler = sky_doppler(&scene, &eye, theta, 0.4);
+            close(doppler, 1.0 / (gamma * missing), 1e-13 + 4.0 * f64::EPSILON * gamma * gamma);
+        }
+    }
 }

@@ -9,14 +9,14 @@
 
 use crate::support::{
     Body, Dice, Eye, Lantern, Stage, angle, beta, black_body, boosted, built, close, diffuse, edge,
-    emission_time, flat, light_to, line, look, near, near_vector, speed, square, v,
+    emission_time, flat, light_at_rest, light_to, line, look, near, near_vector, speed, square, v,
 };
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 use terrell::color::{LUMENS_PER_WATT, matching};
 use terrell::lamp::Beam;
 use terrell::scene::Scene;
-use terrell::spacetime::{Boost, Event, FourVector, Lab, Rest, SightRay, Velocity};
+use terrell::spacetime::{Boost, Event, Lab, Poincare, SightRay, Velocity};
 use terrell::spectrum::{Source, Wavelengths, planck};
 
 /// A turn, so that no axis is special.
@@ -103,11 +103,10 @@ fn both_lamp_and_surface_may_move_any_way() {
         let stage = Stage::of([body]).lit_by([Lantern::at(0.0, start, flat(2.0)).moving(lamp_moves)]);
         // Watched from in front of it, in its own rest frame.
         let to_eye = normal + normal.any_orthonormal_vector() * 0.3;
-        let k = FourVector::<Rest>::new(to_eye.length(), to_eye);
-        let k = Boost::<Rest, Lab>::to_moving(patch_moves).inverse() * k;
-        let k = k * (1.0 / k.t);
-        let ray = SightRay { event: Event::ORIGIN + k * 3.0, k };
-        let omega = frequency(patch_moves, k.x);
+        let into = Poincare::to_moving(patch_moves, Event::ORIGIN);
+        let ray = light_at_rest(&into, DVec3::ZERO, Event::new(to_eye.length(), to_eye));
+        let ray = SightRay { k: ray.k * (1.0 / ray.k.t), ..ray };
+        let omega = frequency(patch_moves, ray.k.x);
         let expected = if cosine > 0.0 { 2.0 * doppler.powi(3) * cosine / (r_rest * r_rest) } else { 0.0 };
         lit += u32::from(cosine > 0.0);
         for value in irradiance(&stage.scene(), &ray) {

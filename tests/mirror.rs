@@ -178,14 +178,14 @@ fn facing_mirrors_are_followed_to_the_depth_and_no_further() {
     let wall =
         |x: f64| Body::new(&plate, mirror(0.5)).sized(5.0).facing(v(-x, 0.0, 0.0)).at(0.0, v(x, 5.0, 0.0));
     let sky = Body::new(&built(icosphere(2)), glowing(flat(1.0))).sized(100.0);
-    for bounces in 1..6_u32 {
+    for bounces in 1..6_i32 {
         // Slanted so that the last of the bounces at y = s, 3s, 5s .. is below 10, the next above.
         let slope = 10.0 / (2.0 * f64::from(bounces));
         let ray = Eye::at(0.0, v(0.0, 0.0, 0.0)).sight(v(1.0, slope, 0.1));
         for depth in 0..7 {
             let mut stage = Stage::of([wall(1.0), wall(-1.0), sky.clone()]);
             stage.depth = depth;
-            let expected = if depth >= bounces { 0.5_f64.powi(bounces as i32) } else { 0.0 };
+            let expected = if depth >= bounces.cast_unsigned() { libm::ldexp(1.0, -bounces) } else { 0.0 };
             near(look(&stage.scene(), &ray).radiance[9], expected, 1e-15);
         }
     }

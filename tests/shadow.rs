@@ -1,8 +1,8 @@
 //! Shadows of moving bodies: what stands in the light's way when the light passes.
 
 use crate::support::{
-    Body, Dice, Lantern, Stage, black, boosted, built, cube, diffuse, edge, flat, icosphere, light_to, look,
-    near, speed, square, v,
+    Body, Dice, Lantern, Stage, black, built, cube, diffuse, edge, emission_time, flat, icosphere, is_bright,
+    light_at_rest, light_to, look, near, speed, square, v,
 };
 use glam::{DQuat, DVec3};
 use terrell::lamp::Beam;
@@ -66,7 +66,7 @@ fn ball_shades_what_the_light_would_have_reached_through_it() {
         for _ in 0..40 {
             let place = v(dice.between(-6.0, 6.0), dice.between(-6.0, 6.0), 0.0);
             let t = dice.between(-2.0, 8.0);
-            let emitted = crate::support::emission_time(Event::new(t, place), lamp_path);
+            let emitted = emission_time(Event::new(t, place), lamp_path);
             let from = lamp_path(emitted);
             // Squared distance from the ball's centre, in its rest frame, along the light: a quadratic in its way.
             let clearance = |part: f64| {
@@ -129,25 +129,60 @@ fn sun_is_shaded_from_any_distance() {
     }
 }
 
+/// What faces a sun of its own rest frame is lit, what does not is dark: at every size, speed and distance.
 #[test]
 fn own_back_is_dark_and_convex_bodies_do_not_shade_themselves() {
-    let ball = Body::new(&built(icosphere(5)), diffuse(0.5)).moving(speed(0.9, v(1.0, 2.0, -1.0)));
-    let sun = Lantern::at(0.0, DVec3::ZERO, flat(1.0))
-        .with(Beam::Sun { axis: v(0.0, 0.0, -1.0) })
-        .moving(speed(0.9, v(1.0, 2.0, -1.0)));
-    // All in one frame: what faces the sun is lit, what does not is dark, at every scale.
-    for size in [1e-4, 1.0, 1e5] {
-        let stage = Stage::of([ball.clone().sized(size)]).lit_by([sun.clone()]);
-        let stage = boosted::stage(ball.placement.velocity, &stage);
-        let scene = stage.scene();
-        let mut dice = Dice(8);
-        for _ in 0..2000 {
+    let (ball, mut dice) = (built(icosphere(5)), Dice(8));
+    for (size, speed, far) in [
+        (1.0, 0.0, 0.0),
+        (1e-4, 0.9, 0.0),
+        (1.0, 0.9, 1e6),
+        (1e5, 0.9, 0.0),
+        (1.0, 0.999, 1e3),
+        (1e3, 0.999_99, 1e6),
+    ] {
+        let velocity = dice.velocity(speed);
+        let start: Event = Event::new(0.3 * far, v(-0.6, 0.0, 0.8) * far);
+        let ball = Body::new(&ball, diffuse(0.5)).sized(size).at(start.t, start.x).moving(velocity);
+        let sun =
+            Lantern::at(0.0, DVec3::ZERO, flat(1.0)).with(Beam::Sun { axis: DVec3::NEG_Z }).moving(velocity);
+        let scene = Stage::of([ball]).lit_by([sun]).scene();
+        let into = scene.world.frames[0].rest_from_lab;
+        for _ in 0..3000 {
             let n = dice.direction();
-            let ray = light_to(n * (3.0 * size), Event::new(0.0, n * size));
-            let bright = look(&scene, &ray).radiance[0] > 0.0;
+            let eye = (n * 3.0 + dice.in_cube() * 0.3) * size;
+            let ray = light_at_rest(&into, n * size, Event::new(dice.part() * size, eye));
             if n.z.abs() > 0.05 {
-                assert_eq!(bright, n.z > 0.0, "size {size}, {n}");
+                assert_eq!(is_bright(&scene, &ray), n.z > 0.0, "size {size}, speed {speed}, {n}");
             }
+        }
+    }
+}
+
+/// Walls that meet at an edge: the light of a lamp in the middle reaches every place of the room.
+#[test]
+fn lamp_in_the_middle_reaches_every_corner_of_its_room() {
+    let (room, mut dice) = (built(cube()), Dice(40));
+    for speed in [0.0, 0.6, 0.99] {
+        let velocity = dice.velocity(speed);
+        let start: Event = Event::new(3.0, v(100.0, -20.0, 7.0));
+        let body =
+            Body::new(&room, diffuse(0.5)).stretched(v(3.0, 1.0, 20.0)).at(start.t, start.x).moving(velocity);
+        let lamp = Lantern::at(start.t, start.x, flat(1.0)).moving(velocity);
+        let scene = Stage::of([body]).lit_by([lamp]).scene();
+        let into = scene.world.frames[0].rest_from_lab;
+        for i in 0..6000 {
+            let mut place = dice.in_cube();
+            place[i % 3] = place[i % 3].signum();
+            if i % 2 == 0 {
+                // Very near another wall.
+                let near = (i / 2 + 1) % 3;
+                place[near] = place[near].signum() * (1.0 - libm::pow(10.0, -dice.between(2.0, 12.0)));
+            }
+            let place = place * v(3.0, 1.0, 20.0);
+            let eye = dice.in_cube() * v(2.9, 0.9, 19.0);
+            let ray = light_at_rest(&into, place, Event::new(0.0, eye));
+            assert!(is_bright(&scene, &ray), "{place} is dark at {speed}");
         }
     }
 }

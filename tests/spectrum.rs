@@ -1,6 +1,6 @@
 //! Spectra and reflectances.
 
-use crate::support::{close, near, near_vector, v};
+use crate::support::{close, near, near_vector};
 use glam::DVec3;
 use terrell::color::{RGB_FROM_XYZ, matching, xyz_of};
 use terrell::spectrum::{D65, Illuminant, Reflectance, Source, Spectrum, Table, Wavelengths, planck};
@@ -127,17 +127,9 @@ fn line_has_the_same_colour_as_points_and_as_a_curve() {
     near_vector(line(0.0), line(0.5), 1e-2 * line(0.0).length());
     // 17 nm of standard deviation is where points become a curve.
     near_vector(line(39.9), line(40.1), 5e-3 * line(40.0).length());
-    near_vector(
-        v(0.0, line(40.0).y, 0.0),
-        v(
-            0.0,
-            xyz_of(|nm| {
-                let z = (nm - 545.0) * 2.354_820_045 / 40.0;
-                libm::exp(-0.5 * z * z) * 2.354_820_045 / 40.0 * 0.398_942_280_4
-            })
-            .y,
-            0.0,
-        ),
-        1e-2,
-    );
+    let gauss = |nm: f64| {
+        let z = (nm - 545.0) * 2.354_820_045 / 40.0;
+        libm::exp(-0.5 * z * z) * 2.354_820_045 / 40.0 * 0.398_942_280_4
+    };
+    near_vector(line(40.0), xyz_of(gauss), 1e-3 * line(40.0).length());
 }

@@ -1,7 +1,7 @@
 //! Trees find what trying every triangle finds, at every size, and nothing slips through a closed mesh.
 
 use crate::support::{
-    Body, Dice, Stage, angle, black, built, cube, icosphere, light_from, near, soup, speed, v,
+    Body, Dice, Stage, angle, black, built, cube, icosphere, light_at_rest, light_from, near, soup, speed, v,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3, Vec3A};
 use obvhs::BvhBuildParams;
@@ -27,20 +27,21 @@ fn meets(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<(f64, f64)> {
     s.is_finite().then_some((s, u.min(v).min(1.0 - u - v)))
 }
 
-/// The nearest s by trying every triangle, where that is beyond doubt: none if an edge or a start is grazed.
-fn tried(mesh: &Mesh, line: &Line) -> Option<Option<f64>> {
-    let corner = |i: u32| mesh.positions[i as usize].as_dvec3();
-    let mut nearest: Option<f64> = None;
-    for triangle in &mesh.triangles {
-        let Some((s, inside)) = meets(line, triangle.map(corner)) else { continue };
-        if inside.abs() < 1e-6 || (inside > 0.0 && s.abs() * line.step.length() < 1e-9) {
-            return None;
-        }
+/// The nearest s by trying every triangle, and whether that is in doubt: if an edge or the start is grazed.
+fn tried(triangles: impl IntoIterator<Item = [DVec3; 3]>, line: &Line) -> (Option<f64>, bool) {
+    let (mut nearest, mut doubtful) = (None, false);
+    for (s, inside) in triangles.into_iter().filter_map(|triangle| meets(line, triangle)) {
+        doubtful |= inside.abs() < 1e-6 || (inside > 0.0 && s.abs() * line.step.length() < 1e-9);
         if inside > 0.0 && s > 0.0 {
-            nearest = Some(nearest.map_or(s, |n| n.min(s)));
+            nearest = Some(nearest.map_or(s, |n: f64| n.min(s)));
         }
     }
-    Some(nearest)
+    (nearest, doubtful)
+}
+
+/// The corners of a mesh's triangles.
+fn corners_of(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> {
+    mesh.triangles.iter().map(|triangle| triangle.map(|i| mesh.positions[i as usize].as_dvec3()))
 }
 
 fn triangles() -> impl Strategy<Value = Vec<[DVec3; 3]>> {
@@ -67,7 +68,10 @@ proptest! {
             let target = (dice.in_cube() + middle) * size;
             let start = (dice.in_cube() * 3.0 + middle) * size;
             let line = Line { origin: start, step: (target - start) * libm::pow(10.0, dice.between(-3.0, 3.0)) };
-            let Some(expected) = tried(&mesh, &line) else { continue };
+            let (expected, doubtful) = tried(corners_of(&mesh), &line);
+            if doubtful {
+                continue;
+            }
             let found = tree.nearest(&line, f64::INFINITY).map(|meeting| meeting.s);
             prop_assert_eq!(found.is_some(), expected.is_some());
             prop_assert_eq!(tree.any(&line, f64::INFINITY), expected.is_some());
@@ -91,22 +95,13 @@ proptest! {
         }
         let mesh = soup(&corners);
         let moved = Stage::of([Body::new(&built(mesh.clone()), black()).mapped(map)]).scene();
-        // Rounded to f32 once more: the same but for that.
-        let positions = mesh.positions.iter().map(|p| map.transform_point3(p.as_dvec3())).collect::<Vec<_>>();
         for _ in 0..50 {
             let target = map.transform_point3(dice.in_cube());
             let eye = Event::new(0.0, target + dice.direction() * dice.between(0.5, 20.0));
             let ray = light_from(target, eye);
             let line = Line { origin: eye.x, step: -ray.k.x };
-            let mut nearest: Option<f64> = None;
-            let mut doubtful = false;
-            for triangle in &mesh.triangles {
-                let Some((s, inside)) = meets(&line, triangle.map(|i| positions[i as usize])) else { continue };
-                doubtful |= inside.abs() < 1e-6 || (inside > 0.0 && s.abs() < 1e-9);
-                if inside > 0.0 && s > 0.0 {
-                    nearest = Some(nearest.map_or(s, |n| n.min(s)));
-                }
-            }
+            let moved_corners = corners_of(&mesh).map(|triangle| triangle.map(|p| map.transform_point3(p)));
+            let (nearest, doubtful) = tried(moved_corners, &line);
             if doubtful {
                 continue;
             }
@@ -138,7 +133,8 @@ fn tree_equals_the_builders_own_walk() {
     let point = |p: DVec3| Vec3A::from(p.as_vec3());
     let theirs: Vec<Triangle> =
         corners.iter().map(|t| Triangle { v0: point(t[0]), v1: point(t[1]), v2: point(t[2]) }).collect();
-    let bvh = build_bvh2(&theirs, BvhBuildParams::medium_build(), &mut Duration::ZERO);
+    let mut elapsed = Duration::ZERO;
+    let bvh = build_bvh2(&theirs, BvhBuildParams::medium_build(), &mut elapsed);
     let (mut both, mut apart) = (0, 0);
     for _ in 0..20_000 {
         let (origin, step) = (dice.direction() * 4.0, dice.direction());
@@ -164,9 +160,7 @@ fn tree_equals_the_builders_own_walk() {
 
 /// The edges of a mesh, as pairs of vertices.
 fn edges(mesh: &Mesh) -> Vec<(DVec3, DVec3)> {
-    let corner = |i: u32| mesh.positions[i as usize].as_dvec3();
-    let sides = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
-    mesh.triangles.iter().flat_map(sides).map(|(a, b)| (corner(a), corner(b))).collect()
+    corners_of(mesh).flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]).collect()
 }
 
 /// 200,000 rays each from inside a closed ball at its vertices and edges, exactly and nearly: none gets out.
@@ -216,10 +210,8 @@ fn nothing_slips_into_a_closed_ball_that_flies_by() {
             let target = if i % 3 == 0 { a } else { a.lerp(b, if i % 3 == 1 { 0.5 } else { dice.part() }) };
             // A light from that place of the rest frame to somewhere on its own side, well above the surface.
             let to = target * 3.0 + dice.in_cube();
-            let way = (to - target) * size;
-            let k = terrell::spacetime::FourVector::new(way.length(), way);
-            let event = into.undo(Event::new(way.length(), to * size));
-            let ray = terrell::spacetime::SightRay { event, k: into.boost().inverse() * k };
+            let arrival = Event::new((to - target).length() * size, to * size);
+            let ray = light_at_rest(&into, target * size, arrival);
             let hit = scene.world.nearest(&ray);
             // Met at s = 1, not on the far side behind it.
             let s = hit.map_or(f64::INFINITY, |hit| hit.s);
@@ -361,11 +353,9 @@ fn bodies_of_one_frame_are_found_through_their_tree() {
     let into = scene.world.frames[0].rest_from_lab;
     for _ in 0..2000 {
         let event = Event::new(0.0, dice.direction() * 90.0);
-        let eye = into.undo(event);
         let target = dice.in_cube() * 40.0;
         let way = event.x - target;
-        let k = terrell::spacetime::FourVector::new(way.length(), way);
-        let ray = terrell::spacetime::SightRay { event: eye, k: into.boost().inverse() * k };
+        let ray = light_at_rest(&into, target, event);
         let met = places.iter().enumerate().filter_map(|(number, place)| {
             // A unit sphere: where the line enters it.
             let from = *place - event.x;

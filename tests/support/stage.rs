@@ -1,0 +1,205 @@
+//! Bodies, lamps and an observer as data.
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use std::sync::Arc;
+use terrell::lamp::{Beam, Lamp};
+use terrell::observer::{Aim, Observer};
+use terrell::scene::{Placement, Scene, WorldBuilder};
+use terrell::spacetime::{Course, Event, Poincare, SightRay, Velocity, Worldline};
+use terrell::spectrum::Source;
+use terrell::surface::Surface;
+use terrell::trace::Effects;
+use terrell::triangles::Triangles;
+
+/// A body as it is put on a stage: made at rest at the origin, then moved there.
+#[derive(Clone)]
+pub(crate) struct Body {
+    pub(crate) mesh: Arc<Triangles>,
+    pub(crate) placement: Placement,
+    pub(crate) rest_from_mesh: DAffine3,
+    pub(crate) surface: Surface,
+}
+
+impl Body {
+    /// At rest at the origin.
+    pub(crate) fn new(mesh: &Arc<Triangles>, surface: Surface) -> Self {
+        let placement = Placement { origin: Event::ORIGIN, velocity: Velocity::REST };
+        Self { mesh: mesh.clone(), placement, rest_from_mesh: DAffine3::IDENTITY, surface }
+    }
+
+    /// Its centre passes through this event.
+    pub(crate) fn at(mut self, t: f64, x: DVec3) -> Self {
+        self.placement.origin = Event::new(t, x);
+        self
+    }
+
+    /// It moves.
+    pub(crate) fn moving(mut self, velocity: Velocity) -> Self {
+        self.placement.velocity = velocity;
+        self
+    }
+
+    /// Larger (about its centre) by a factor.
+    pub(crate) fn sized(self, factor: f64) -> Self {
+        self.stretched(DVec3::splat(factor))
+    }
+
+    /// Larger by a factor for each axis of its rest frame.
+    pub(crate) fn stretched(self, factors: DVec3) -> Self {
+        self.mapped(DAffine3::from_scale(factors))
+    }
+
+    /// Turned in its rest frame so that its +z looks along `normal`.
+    pub(crate) fn facing(self, normal: DVec3) -> Self {
+        let z = normal / normal.length();
+        let x = z.any_orthonormal_vector();
+        self.mapped(DAffine3::from_mat3(DMat3::from_cols(x, z.cross(x), z)))
+    }
+
+    /// Moved about in its rest frame.
+    pub(crate) fn mapped(mut self, map: DAffine3) -> Self {
+        self.rest_from_mesh = map * self.rest_from_mesh;
+        self
+    }
+}
+
+/// A lamp as it is put on a stage.
+#[derive(Clone)]
+pub(crate) struct Lantern {
+    pub(crate) origin: Event,
+    pub(crate) velocity: Velocity,
+    pub(crate) beam: Beam,
+    pub(crate) source: Source,
+}
+
+impl Lantern {
+    /// A point lamp through an event.
+    pub(crate) fn at(t: f64, x: DVec3, source: Source) -> Self {
+        let beam = Beam::Point { place: DVec3::ZERO };
+        Self { origin: Event::new(t, x), velocity: Velocity::REST, beam, source }
+    }
+
+    /// It moves.
+    pub(crate) fn moving(self, velocity: Velocity) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// With another beam.
+    pub(crate) fn with(self, beam: Beam) -> Self {
+        Self { beam, ..self }
+    }
+
+    /// As the scene takes it.
+    pub(crate) fn lamp(&self) -> Lamp {
+        Lamp {
+            rest_from_lab: Poincare::to_moving(self.velocity, self.origin),
+            beam: self.beam,
+            source: self.source.clone(),
+        }
+    }
+}
+
+/// Bodies and lamps, still as data: they can be boosted.
+#[derive(Clone)]
+pub(crate) struct Stage {
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) lamps: Vec<Lantern>,
+    pub(crate) ambient: Option<Source>,
+    pub(crate) effects: Effects,
+    pub(crate) depth: u32,
+}
+
+impl Stage {
+    /// With bodies.
+    pub(crate) fn of(bodies: impl IntoIterator<Item = Body>) -> Self {
+        let bodies = bodies.into_iter().collect();
+        Self { bodies, lamps: Vec::new(), ambient: None, effects: Effects::ALL, depth: 8 }
+    }
+
+    /// With lamps.
+    pub(crate) fn lit_by(mut self, lamps: impl IntoIterator<Item = Lantern>) -> Self {
+        self.lamps.extend(lamps);
+        self
+    }
+
+    /// The scene, as `eye` sees it.
+    pub(crate) fn seen_by(&self, eye: &Eye) -> Scene {
+        let mut world = WorldBuilder::default();
+        for (number, body) in self.bodies.iter().enumerate() {
+            let number = number as u32;
+            world.add(number, body.placement, &body.mesh, body.rest_from_mesh, number);
+        }
+        Scene {
+            world: world.build(),
+            surfaces: self.bodies.iter().map(|body| body.surface.clone()).collect(),
+            lamps: self.lamps.iter().map(Lantern::lamp).collect(),
+            ambient: self.ambient.clone(),
+            effects: self.effects,
+            depth: self.depth,
+            observer: eye.observer(),
+        }
+    }
+
+    /// The scene, for sight rays that come from elsewhere.
+    pub(crate) fn scene(&self) -> Scene {
+        self.seen_by(&Eye::at(0.0, DVec3::ZERO))
+    }
+}
+
+/// An observer, still as data.
+#[derive(Clone, Copy)]
+pub(crate) struct Eye {
+    pub(crate) origin: Event,
+    pub(crate) velocity: Velocity,
+    pub(crate) rotation: DQuat,
+    pub(crate) course: Course,
+    pub(crate) aim: Aim,
+    pub(crate) up: DVec3,
+    pub(crate) field_of_view: f64,
+}
+
+impl Eye {
+    /// At rest; looks along -z, 60° wide.
+    pub(crate) fn at(t: f64, x: DVec3) -> Self {
+        Self {
+            origin: Event::new(t, x),
+            velocity: Velocity::REST,
+            rotation: DQuat::IDENTITY,
+            course: Course::Inertial,
+            aim: Aim::Along(DVec3::NEG_Z),
+            up: DVec3::Y,
+            field_of_view: 60.0_f64.to_radians(),
+        }
+    }
+
+    /// It moves.
+    pub(crate) fn moving(self, velocity: Velocity) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// It looks along a direction of the axes it carries.
+    pub(crate) fn toward(self, direction: DVec3) -> Self {
+        Self { aim: Aim::Along(direction), ..self }
+    }
+
+    /// This many degrees wide.
+    pub(crate) fn wide(self, degrees: f64) -> Self {
+        Self { field_of_view: degrees.to_radians(), ..self }
+    }
+
+    /// As the scene takes it.
+    pub(crate) fn observer(&self) -> Observer {
+        Observer {
+            worldline: Worldline::new(self.origin, self.velocity, self.rotation, self.course),
+            aim: self.aim,
+            up: self.up,
+            field_of_view: self.field_of_view,
+            unaberrated: None,
+        }
+    }
+
+    /// The light from the direction `n` of the axes it carries, at its proper time zero.
+    pub(crate) fn sight(&self, n: DVec3) -> SightRay {
+        self.observer().worldline.at(0.0).sight_ray(n / n.length())
+    }
+}
