@@ -204,7 +204,15 @@ fn encoding_is_undone_by_decoding() {
 fn meter_follows_neither_the_brightest_nor_the_darkest() {
     // 85 in 100 lie below 60 % of white; a film of one brightness is at 60 % itself.
     close(3.0 / meter([3.0; 50]).unwrap(), 0.6, 1e-12);
-    let mixed = (0..100).map(|i| if i < 10 { 1e-5 } else if i < 95 { 4.0 } else { 1e5 });
+    let mixed = (0..100).map(|i| {
+        if i < 10 {
+            1e-5
+        } else if i < 95 {
+            4.0
+        } else {
+            1e5
+        }
+    });
     close(4.0 / meter(mixed).unwrap(), 0.6, 1e-12);
     close(2.0 / meter([0.0, f64::NAN, 2.0]).unwrap(), 0.6, 1e-12);
     assert!(meter([0.0, 0.0]).is_none());

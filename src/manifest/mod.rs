@@ -38,8 +38,8 @@ pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
 pub use picture::{Clock, Effects, Exposures, Film, Filter, Output, Picture, White};
 pub use reader::LIGHT_SPEED;
-pub use reference::reference;
 pub use record::{Field, Presence, RecordShape, Shape};
+pub use reference::reference;
 pub use spectrum::{Illuminant, Line, Spectrum};
 pub use table::Rows;
 

@@ -32,7 +32,11 @@ manifest's folder. Keys marked * have to be there; of those marked + exactly one
 ";
 
 fn section(record: &RecordShape) -> String {
-    let mut text = format!("\n## {}\n\n{}\n\n| key | value | example |\n| --- | --- | --- |\n", record.title, record.doc.trim());
+    let mut text = format!(
+        "\n## {}\n\n{}\n\n| key | value | example |\n| --- | --- | --- |\n",
+        record.title,
+        record.doc.trim()
+    );
     for field in (record.fields)() {
         let mark = match field.presence {
             Presence::Required => " *",
@@ -57,7 +61,9 @@ fn words(shape: &Shape) -> String {
         Shape::Words(words) => words.join(", "),
         Shape::List(of) => format!("a list: {}", words(&of())),
         Shape::Map(of) => format!("names of your own, each with: {}", words(&of())),
-        Shape::Record(record) => format!("[{}](#{})", record.title, record.title.replace(' ', "-").replace('\'', "")),
+        Shape::Record(record) => {
+            format!("[{}](#{})", record.title, record.title.replace(' ', "-").replace('\'', ""))
+        }
         Shape::Either(shapes) => shapes.iter().map(words).collect::<Vec<_>>().join("; or "),
     }
 }

@@ -10,5 +10,8 @@ fn reference_is_current() {
         std::fs::write(&path, &now).unwrap();
     }
     let written = std::fs::read_to_string(&path).unwrap();
-    assert!(written == now, "manifests/REFERENCE.md is stale: TERRELL_UPDATE=1 cargo test --release reference");
+    assert!(
+        written == now,
+        "manifests/REFERENCE.md is stale: TERRELL_UPDATE=1 cargo test --release reference"
+    );
 }
