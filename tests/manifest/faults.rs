@@ -194,6 +194,9 @@ fn shown_faults_send_no_escapes_of_the_users_to_the_terminal() {
     let shown = render(&faults("observer: {} # \u{1b}[31m\n").faults, false, false);
     assert!(shown.contains("observer: {} # "), "{shown:?}");
     assert!(!shown.contains('\u{1b}'), "{shown:?}");
+    let fault = Fault::new(Place::element("\u{1b}[1m", "\u{7}"), "a\nb", "c\r\u{9b}d");
+    let shown = render(&[fault], false, false);
+    assert_eq!(shown.matches('\u{fffd}').count(), 5, "{shown:?}");
 }
 
 #[test]

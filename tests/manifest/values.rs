@@ -193,7 +193,7 @@ fn the_observer_looks_at_bodies_by_their_name_and_at_places() {
 
 #[test]
 fn values_on_the_command_line_take_the_place_of_written_ones() {
-    let text = "assets: { a: a.glb }\nbodies: [{ asset: a }, { asset: a, at: 0 0 1 m }]\nobserver: { velocity: 0 0 0 c }\noutput: out\n";
+    let text = "assets: { a: a.glb }\nbodies: [{ asset: a }, { asset: a, at: 0 0 1 m }]\nobserver: { velocity: 0 0 0 c }\noutput: out\nfilm:\n";
     let m = read_with(
         text,
         &[
