@@ -156,6 +156,7 @@ fn encoder(pixels: usize, rate: f64, quantiser: u8) -> io::Result<Encoder> {
         .skip_frames(false)
         .adaptive_quantization(false)
         .background_detection(false)
+        .scene_change_detect(false) // it would coarsen such pictures
         .num_threads(1)
         .profile(Profile::High)
         .complexity(Complexity::Medium)
