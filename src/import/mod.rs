@@ -1,9 +1,16 @@
 //! A model file, as written, becomes an [`Asset`]: meshes, materials, lights and cameras in the asset's own
 //! space (metres, y up), with every number checked.
 //!
-//! By extension: `.glb` and `.gltf` ([`gltf`]), `.obj` with its `.mtl` ([`obj`]). A model file is not
-//! trusted: [`load`] reads nothing outside of one folder, checks counts against what is there before it
-//! allocates, and gives an error with the place of every fault it finds.
+//! By extension: `.glb` and `.gltf`, and `.obj` with its `.mtl`. A model file is not trusted: [`load`] reads
+//! nothing outside of one folder, checks counts against what is there before it allocates, and gives an
+//! error with the place of every fault it finds.
+//!
+//! Of glTF 2.0: the default scene with its nodes, triangles, base and emissive colours with their textures,
+//! lights and cameras. Skinned and morphed meshes stand in their rest pose; metalness, roughness, normal maps
+//! and animations are passed over. `alphaMode` `MASK` is read as `BLEND`.
+//!
+//! Of OBJ: polygons, concave ones too, with normals as written or flat (smoothing groups are not read), the
+//! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `map_Kd`, `map_Ke`.
 
 mod files;
 mod gltf;
