@@ -163,7 +163,7 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
         manifest::Worldline::Rocket(rocket) => Course::Rocket { acceleration: rocket.acceleration },
         manifest::Worldline::Orbit(orbit) => Course::Orbit {
             circle: Circle::around(orbit.centre, orbit.axis, orbit.radius, orbit.start),
-            proper_speed: orbit.speed / ((1.0 - orbit.speed) * (1.0 + orbit.speed)).sqrt(),
+            proper_speed: orbit.speed,
         },
         manifest::Worldline::Ring(ring) => Course::Ring {
             circle: Circle::around(ring.centre, ring.axis, ring.radius, ring.start),
