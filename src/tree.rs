@@ -277,14 +277,14 @@ impl Walk {
 /// Nodes still to be visited, with their entries; on the heap only in very deep trees.
 struct Stack {
     top: usize,
-    fixed: [(f32, u32); 64],
+    fixed: [(f32, u32); 32],
     spill: Vec<(f32, u32)>,
 }
 
 impl Stack {
     #[inline]
     fn new() -> Self {
-        Self { top: 0, fixed: [(0.0, 0); 64], spill: Vec::new() }
+        Self { top: 0, fixed: [(0.0, 0); 32], spill: Vec::new() }
     }
 
     #[inline]

@@ -68,8 +68,9 @@ impl Triangles {
 
     #[inline]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
+        let [a, b, c] = self.mesh.triangles[triangle as usize];
         let corner = |i: u32| self.mesh.positions[i as usize].to_array();
-        let (s, weights) = line.meet(self.mesh.triangles[triangle as usize].map(corner))?;
+        let (s, weights) = line.meet([corner(a), corner(b), corner(c)])?;
         (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
     }
 }
