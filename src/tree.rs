@@ -194,7 +194,7 @@ impl Tree {
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
-            let near = [0, 1].map(|side| walk.entry(node.lo[side], node.hi[side]));
+            let near = [walk.entry(node.lo[0], node.hi[0]), walk.entry(node.lo[1], node.hi[1])];
             let order = if near[1] < near[0] { [1, 0] } else { [0, 1] };
             let mut next = None;
             for side in order {

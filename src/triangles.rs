@@ -69,7 +69,7 @@ impl Triangles {
     #[inline]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
         let [a, b, c] = self.mesh.triangles[triangle as usize];
-        let corner = |i: u32| self.mesh.positions[i as usize].to_array();
+        let corner = |i: u32| self.mesh.positions[i as usize].as_ref();
         let (s, weights) = line.meet([corner(a), corner(b), corner(c)])?;
         (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
     }
@@ -114,7 +114,7 @@ impl Sheared {
 
     /// A corner across the line (x, y) and along it.
     #[inline]
-    fn across(&self, corner: [f32; 3]) -> (f64, f64, f64) {
+    fn across(&self, corner: &[f32; 3]) -> (f64, f64, f64) {
         let depth = f64::from(corner[self.axes[2]]) - self.origin[2];
         let x = f64::from(corner[self.axes[0]]) - self.origin[0] - self.shear[0] * depth;
         let y = f64::from(corner[self.axes[1]]) - self.origin[1] - self.shear[1] * depth;
@@ -123,7 +123,7 @@ impl Sheared {
 
     /// Parameter s and the weights of the second and the third corner.
     #[inline]
-    fn meet(&self, [a, b, c]: [[f32; 3]; 3]) -> Option<(f64, (f64, f64))> {
+    fn meet(&self, [a, b, c]: [&[f32; 3]; 3]) -> Option<(f64, (f64, f64))> {
         let (a, b, c) = (self.across(a), self.across(b), self.across(c));
         let edge = |p: (f64, f64, f64), q: (f64, f64, f64)| p.0 * q.1 - p.1 * q.0;
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
