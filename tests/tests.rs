@@ -24,3 +24,4 @@ mod terrell;
 mod tree;
 mod velocity;
 mod worldline;
+mod written;
