@@ -17,6 +17,8 @@ mod radiance;
 mod shadow;
 mod spectrum;
 mod terrell;
+mod tint;
 mod tree;
 mod velocity;
+mod world;
 mod worldline;
