@@ -94,6 +94,9 @@ impl Development {
     pub fn display(&self, xyz: DVec3) -> DVec3 {
         let relative = xyz / self.white;
         let y = relative.y;
+        if y == f64::INFINITY {
+            return DVec3::ONE; // Brighter than numbers go.
+        }
         if !(y > 0.0 && relative.is_finite()) {
             return DVec3::ZERO;
         }

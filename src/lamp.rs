@@ -73,7 +73,9 @@ impl Lamp {
         let cone = match self.beam {
             Beam::Spot { axis, cos_inner, cos_outer, .. } => {
                 let cos = -toward.dot(axis) / distance;
-                let part = ((cos - cos_outer) / (cos_inner - cos_outer).max(1e-6)).clamp(0.0, 1.0);
+                let width = cos_inner - cos_outer;
+                let part = if width > 0.0 { (cos - cos_outer) / width } else { f64::from(cos >= cos_outer) };
+                let part = part.clamp(0.0, 1.0);
                 part * part
             }
             _ => 1.0,

@@ -1,8 +1,10 @@
 //! What is to be rendered: the exposures of a film, and where they go.
 
+use crate::error::Report;
 use crate::exposure::Sampling;
 use crate::film::Reconstruction;
 use crate::manifest::{self, Amount, Clock, Filter, Manifest};
+use crate::output::movie;
 use crate::scene::Scene;
 use crate::spacetime::Course;
 use crate::spectrum::{Source, Spectrum};
@@ -54,14 +56,19 @@ pub struct Plan {
 
 impl Plan {
     /// What a manifest asks for.
-    pub fn of(manifest: &Manifest, scene: &Scene, path: &Path) -> Self {
+    ///
+    /// Faults: a film that cannot be written, and an observer too fast to be followed.
+    pub fn of(manifest: &Manifest, scene: &Scene, path: &Path, report: &mut Report) -> Self {
         let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
         let picture = &manifest.picture;
         let film = manifest.film.as_ref().filter(|film| film.video);
         let file = film.and_then(|film| film.file.clone()).unwrap_or_else(|| format!("{stem}.mp4"));
+        let exposures = exposures(&manifest.exposures, scene);
+        let film_rate = film.map(|film| film.rate).filter(|_| film_fits(manifest, exposures.len(), report));
+        check_speeds(manifest, scene, &exposures, report);
         let version = concat!("terrell ", env!("CARGO_PKG_VERSION"));
         Self {
-            exposures: exposures(&manifest.exposures, scene),
+            exposures,
             sampling: Sampling {
                 width: picture.size.0,
                 height: picture.size.1,
@@ -74,12 +81,47 @@ impl Plan {
                 wavelengths: picture.wavelengths,
             },
             white: white(picture),
-            film_rate: film.map(|film| film.rate),
+            film_rate,
             exr: manifest.output.exr,
             folder: manifest.output.folder.clone(),
             film_file: file,
             seconds_per_metre: 1.0 / manifest.light_speed,
             text: vec![("Software", version.to_owned()), ("Source", stem.into_owned())],
+        }
+    }
+}
+
+/// Whether a film is to be made of so many exposures; a fault where it cannot be.
+fn film_fits(manifest: &Manifest, exposures: usize, report: &mut Report) -> bool {
+    if exposures < 2 {
+        return false;
+    }
+    let place = &manifest.picture.place;
+    if !movie::AVAILABLE {
+        let hint = "join the pictures with another program, such as ffmpeg";
+        report.warn(place.clone(), "this build writes no films, only their pictures", hint);
+        return false;
+    }
+    let (width, height) = manifest.picture.size;
+    let (long, short) = (width.max(height), width.min(height));
+    let fits = short >= movie::SMALLEST && long <= movie::LARGEST.0 && short <= movie::LARGEST.1;
+    if !fits {
+        let what = format!("a film cannot be {width} x {height} pixels (16 x 16 to 3840 x 2160)");
+        report.fault(place.clone(), what, "choose another size, or write `film: { video: off }` for pictures alone");
+    }
+    fits
+}
+
+/// Refuses an observer who, at the first or the last exposure, is beyond what numbers can follow.
+fn check_speeds(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], report: &mut Report) {
+    let ends = exposures.first().into_iter().chain(exposures.last());
+    for exposure in ends {
+        let tetrad = scene.observer.worldline.at(exposure.tau);
+        let gamma = tetrad.velocity().t;
+        if !(gamma <= manifest::GREATEST_GAMMA && tetrad.event.t.is_finite()) {
+            let what = format!("at exposure {} the observer's Lorentz factor is {gamma:.3e}", exposure.index);
+            let hint = "up to 1e5 can be followed: take a shorter time or a smaller acceleration";
+            return report.fault(manifest.exposures.place.clone(), what, hint);
         }
     }
 }

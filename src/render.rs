@@ -19,7 +19,9 @@ pub enum Step {
     /// The brightness of the film is known: this luminance (cd/m²) becomes white.
     Metered(f64),
     /// A picture is on the disk.
-    Wrote(PathBuf),
+    Picture(PathBuf),
+    /// The film is on the disk.
+    Film(PathBuf),
 }
 
 /// A developed picture on its way to the files.
@@ -96,11 +98,11 @@ fn file_all(
         if let Some(movie) = &mut movie {
             movie.push(&print.rgb)?;
         }
-        tell(Step::Wrote(path));
+        tell(Step::Picture(path));
     }
     if let Some(movie) = movie {
         movie.finish()?;
-        tell(Step::Wrote(plan.folder.join(&plan.film_file)));
+        tell(Step::Film(plan.folder.join(&plan.film_file)));
     }
     Ok(())
 }

@@ -88,17 +88,8 @@ pub struct Texture {
 }
 
 /// The linear value of an sRGB-encoded one, both from 0 to 1.
-///
-/// ~~~text
-/// c / 12.92                     for c ≤ 0.04045
-/// ((c + 0.055) / 1.055)^2.4     otherwise
-/// ~~~
-///
-/// Source: IEC 61966-2-1.
 pub fn linear_from_srgb(c: f32) -> f32 {
-    let c = f64::from(c);
-    let linear = if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) };
-    linear as f32
+    crate::color::srgb_decode(f64::from(c)) as f32
 }
 
 /// All 8-bit sRGB values, decoded.

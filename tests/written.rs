@@ -92,7 +92,7 @@ fn picture(text: &str) -> Vec<[f32; 3]> {
     let scene = manifest.as_ref().and_then(|manifest| compose(manifest, &path, &mut report));
     assert!(report.faults.is_empty(), "{:?}\n{text}", report.faults);
     let (manifest, scene) = (manifest.unwrap(), scene.unwrap());
-    let plan = Plan::of(&manifest, &scene, &path);
+    let plan = Plan::of(&manifest, &scene, &path, &mut report);
     let view = scene.observer.view(plan.exposures[0].tau, plan.sampling.width, plan.sampling.height);
     expose(&scene, &view, &plan.sampling).xyz
 }

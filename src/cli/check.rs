@@ -10,8 +10,7 @@ use std::path::Path;
 
 /// Checks a manifest and prints what it needs.
 pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error> {
-    let (manifest, scene) = super::prepare(path, changes)?;
-    let plan = Plan::of(&manifest, &scene, path);
+    let (manifest, scene, plan) = super::prepare(path, changes)?;
     println!("{}: no faults", path.display());
     for (what, how_much) in needs(&manifest, &scene, &plan) {
         println!("  {what:<14} {how_much}");
@@ -27,7 +26,9 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     meshes.sort_unstable();
     meshes.dedup();
     let mirrors = scene.surfaces.iter().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
-    let lines = scene.lamps.iter().any(|lamp| !lamp.source.lines().is_empty());
+    let glows = scene.surfaces.iter().filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
+    let lines = scene.lamps.iter().map(|lamp| &lamp.source).chain(glows).chain(&scene.ambient);
+    let lines = lines.into_iter().any(|source| !source.lines().is_empty());
     let sampling = &plan.sampling;
     let mut needs = vec![
         ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),

@@ -137,13 +137,16 @@ fn colored() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }
 
-/// Manifest and scene, with warnings printed; or all faults.
-fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene), Error> {
+/// What a manifest asks for and means, with warnings printed; or all faults.
+fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
     let manifest = manifest::load_with(path, changes, &mut report);
     let scene = manifest.as_ref().and_then(|manifest| compose(manifest, path, &mut report));
+    let plan = manifest.as_ref().zip(scene.as_ref());
+    let plan = plan.map(|(manifest, scene)| Plan::of(manifest, scene, path, &mut report));
     warn(&report.warnings);
-    report.finish(manifest.zip(scene))
+    let all = manifest.zip(scene).zip(plan).map(|((manifest, scene), plan)| (manifest, scene, plan));
+    report.finish(all)
 }
 
 fn render_all(args: &RenderArgs) -> Result<(), Error> {
@@ -153,6 +156,13 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
     }
     if let Some(samples) = &args.samples {
         changes.push(("picture.samples".to_owned(), samples.clone()));
+    }
+    if args.no_video {
+        changes.push(("film.video".to_owned(), "off".to_owned()));
+    }
+    if args.out.is_some() && args.manifests.len() > 1 {
+        let hint = "render them one by one, or leave --out away: each has an output of its own";
+        return Err(Error::fault(Place::Command, "several manifests cannot go to one folder", hint));
     }
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = args.threads {
@@ -165,13 +175,9 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
 }
 
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
-    let (manifest, scene) = prepare(path, changes)?;
-    let mut plan = Plan::of(&manifest, &scene, path);
+    let (_, scene, mut plan) = prepare(path, changes)?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
-    }
-    if args.no_video {
-        plan.film_rate = None;
     }
     let chosen = chosen(args, plan.exposures.len())?;
     let mut progress = progress::Progress::start(&plan, chosen.len());

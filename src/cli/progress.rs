@@ -36,11 +36,11 @@ impl Progress {
 
     /// Shows a step.
     pub(super) fn show(&mut self, step: &Step) {
-        let Step::Wrote(path) = step else { return };
-        let film = path.extension().is_some_and(|extension| extension == "mp4");
-        if film {
-            return self.say(&format!("film {}", path.display()));
-        }
+        let path = match step {
+            Step::Metered(_) => return,
+            Step::Film(path) => return self.say(&format!("film {}", path.display())),
+            Step::Picture(path) => path,
+        };
         self.done += 1;
         let last = self.done == self.pictures;
         if let Some(gauge) = &self.gauge {

@@ -7,7 +7,7 @@
 //!
 //! Of glTF 2.0: the default scene with its nodes, triangles, base and emissive colours with their textures,
 //! lights and cameras. Skinned and morphed meshes stand in their rest pose; metalness, roughness, normal maps
-//! and animations are passed over. `alphaMode` `MASK` is read as `BLEND`.
+//! and animations are passed over. Coverage (`alphaMode`) is kept in the alpha of colours, and not used yet.
 //!
 //! Of OBJ: polygons, concave ones too, with normals as written or flat (smoothing groups are not read), the
 //! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `map_Kd`, `map_Ke`.

@@ -8,6 +8,7 @@ use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, choice, record};
 use super::spectrum::{Spectrum, SpectrumKind};
 use super::units::Dimension;
+use crate::error::Place;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -118,6 +119,8 @@ record! {
 /// Light from a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glow {
+    /// Where it is written.
+    pub place: Place,
     /// Its brightness: cd/m² or W/m²/sr.
     pub brightness: Amount,
     /// Its spectrum.
@@ -154,7 +157,7 @@ impl Kind for GlowKind {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Glow> {
         let keys = GlowKeys::read(node, reader)?;
         let (Brightness::Luminance(brightness) | Brightness::Radiance(brightness)) = keys.brightness;
-        Ok(Glow { brightness, spectrum: keys.spectrum })
+        Ok(Glow { place: keys.place, brightness, spectrum: keys.spectrum })
     }
 }
 

@@ -41,9 +41,9 @@ impl Kind for Reflectance {
         } else {
             SpectrumKind::read(node, reader)?
         };
-        if spectrum.is_light() {
+        if spectrum.is_light() || spectrum.peak().is_none() {
             let hint = reader.typed("0.8, or { rgb: 0.8 0.2 0.1 }, { table: paint.csv }, { constant: 0.8 }");
-            let what = "a black body or an illuminant is light, not a part of light that is reflected";
+            let what = "this is light, not a part of light that is reflected";
             return Err(reader.fault(&node.place, what, hint));
         }
         match spectrum.peak() {

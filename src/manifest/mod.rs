@@ -34,6 +34,7 @@ mod yaml;
 pub use body::{AssetRef, Body};
 pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
 pub use material::Material;
+pub(crate) use motion::GREATEST_GAMMA;
 pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
 pub use picture::{Clock, Effects, Exposures, Film, Filter, Output, Picture, White};

@@ -10,8 +10,8 @@ use super::units::{self, Dimension};
 use crate::spacetime::Velocity;
 use glam::{DQuat, DVec3};
 
-/// The greatest Lorentz factor: no β below 1 that f64 can hold goes beyond it.
-const GREATEST_GAMMA: f64 = 1e8;
+/// The greatest Lorentz factor: up to it a head-on frequency `γ - u·n`, in f64, keeps five digits.
+pub(crate) const GREATEST_GAMMA: f64 = 1e5;
 const TOO_NEAR: &str = "this is so near the speed of light that the arithmetic cannot follow";
 
 record! {
@@ -115,14 +115,14 @@ fn lorentz_factor(node: &Node, gamma: f64, reader: &mut Reader<'_>) -> Read<f64>
         let what = format!("a Lorentz factor is 1 or more; here is {gamma}");
         return Err(reader.fault(place, what, "gamma: 2 (1 is rest, 2 is 0.866 c)"));
     }
-    Err(reader.fault(place, TOO_NEAR, "gamma: 1e8 (at most)"))
+    Err(reader.fault(place, TOO_NEAR, "gamma: 1e5 (at most)"))
 }
 
 fn proper(node: &Node, u: f64, reader: &mut Reader<'_>) -> Read<f64> {
     if u.abs() <= GREATEST_GAMMA {
         return Ok(u);
     }
-    Err(reader.fault(&node.place, TOO_NEAR, "a Lorentz factor of 1e8, or a rapidity of 19, is the most"))
+    Err(reader.fault(&node.place, TOO_NEAR, "a Lorentz factor of 1e5, or a rapidity of 12.2, is the most"))
 }
 
 /// A speed along a known path: what comes of it is γβ, negative for the other way round.

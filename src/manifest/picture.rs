@@ -8,7 +8,7 @@ use super::quantity::{Instant, Written};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, record};
 use crate::error::Place;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Most pixels of a picture.
 const MOST_PIXELS: u64 = 1 << 28;
@@ -108,7 +108,7 @@ fn span(keys: &ExposuresKeys, reader: &mut Reader<'_>) -> Read<(f64, Option<Span
 words! {
     /// How much of its surroundings a pixel shows.
     Filter, "a filter" {
-        /// A bell of two pixels' width: smooth edges.
+        /// A bell three pixels wide: smooth edges.
         "gaussian" => Gaussian;
         /// A tent of two pixels' width.
         "tent" => Tent;
@@ -194,6 +194,24 @@ impl Kind for Size {
     }
 }
 
+/// Factors of two of brightness.
+struct Stops;
+
+impl Kind for Stops {
+    type Value = f64;
+    fn shape() -> Shape {
+        Shape::Number("factors of two, from -64 to 64")
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let stops = Real::read(node, reader)?;
+        if stops.abs() <= 64.0 {
+            return Ok(stops);
+        }
+        let hint = reader.typed("2 (from -64 to 64)");
+        Err(reader.fault(&node.place, format!("{stops} stops are out of range"), hint))
+    }
+}
+
 record! {
     /// What each picture is like.
     pub Picture, "the picture" {
@@ -210,7 +228,7 @@ record! {
         /// The luminance that is shown as white, or `auto`.
         white: White = White, default(White::Auto), "250 cd/m2";
         /// Brighter (above zero) or darker, in factors of two.
-        stops: f64 = Real, default(0.0), "-1";
+        stops: f64 = Stops, default(0.0), "-1";
     }
 }
 
@@ -224,10 +242,10 @@ impl Kind for Rate {
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
         let rate = Real::read(node, reader)?;
-        if (1e-3..=1000.0).contains(&rate) {
+        if (0.1..=1000.0).contains(&rate) {
             return Ok(rate);
         }
-        let hint = reader.typed("24 (above zero, up to 1000)");
+        let hint = reader.typed("24 (from 0.1 to 1000)");
         Err(reader.fault(&node.place, format!("a film cannot run at {rate} pictures a second"), hint))
     }
 }
@@ -242,8 +260,14 @@ impl Kind for FileName {
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<String> {
         let name = Text::read(node, reader)?;
-        if !name.contains(['/', '\\', ':', '\0']) && !name.starts_with('.') {
+        let plain = !name.contains(['/', '\\', ':', '\0']) && !name.starts_with('.');
+        let is_film = Path::new(&name).extension().is_some_and(|extension| extension == "mp4");
+        if plain && is_film {
             return Ok(name);
+        }
+        if plain {
+            let hint = reader.typed(&format!("{}.mp4", name.split('.').next().unwrap_or("film")));
+            return Err(reader.fault(&node.place, format!("a film is an MP4 file; `{name}` is not"), hint));
         }
         let hint = format!("{}; `output` is where the folder is named", reader.typed("flyby.mp4"));
         Err(reader.fault(&node.place, format!("`{name}` is not the name of a file"), hint))

@@ -263,11 +263,6 @@ fn hexadecimal(text: &str) -> Option<[f64; 3]> {
         return None;
     }
     let part = |at: usize| digits.get(at..at + 2).and_then(|pair| u8::from_str_radix(pair, 16).ok());
+    let linear = |byte: u8| crate::color::srgb_decode(f64::from(byte) / 255.0);
     Some([linear(part(0)?), linear(part(2)?), linear(part(4)?)])
-}
-
-/// The sRGB transfer function, IEC 61966-2-1.
-fn linear(byte: u8) -> f64 {
-    let x = f64::from(byte) / 255.0;
-    if x <= 0.04045 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }
 }

@@ -1,10 +1,10 @@
 //! From a manifest and its model files to the scene that they mean.
 
-use super::models::Models;
+use super::models::{Chosen, Model, Models};
 use super::{Placement, Scene, WorldBuilder, light};
 use crate::error::Report;
 use crate::import;
-use crate::manifest::{self, LookAt, Manifest};
+use crate::manifest::{self, AssetRef, LookAt, Manifest};
 use crate::observer::{Aim, Observer, Unaberrated};
 use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
 use crate::spectrum::{Reflectance, Source};
@@ -19,9 +19,11 @@ pub const UNLIT_LUMINANCE: f64 = 100.0;
 /// The scene that a manifest means. Reads the model files; all faults and warnings go to the report.
 pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<Scene> {
     let models = Models::load(manifest, path, report);
+    let chosen = models.chosen(manifest, report);
     let mut gathered = Gathered::default();
     for (number, body) in manifest.bodies.iter().enumerate() {
-        gathered.add_body(number as u32, body, manifest, &models, report);
+        let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) else { continue };
+        gathered.add_body(number as u32, body, model, report);
     }
     for light in &manifest.lights {
         gathered.lamps.extend(light::from_manifest(light, report));
@@ -67,18 +69,14 @@ impl Gathered {
         &mut self,
         number: u32,
         body: &manifest::Body,
-        manifest: &Manifest,
-        models: &Models,
+        ((reference, model), chosen): ((&AssetRef, &Model), &Chosen),
         report: &mut Report,
     ) {
-        let Some(reference) = manifest.assets.get(&body.asset.value) else { return };
-        let Some(model) = models.get(&reference.file.value) else { return };
         let placement = placement(&body.placement);
         let rest_from_asset =
             DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
         let first_surface = self.surfaces.len() as u32;
         self.surfaces.extend(surfaces(body, &model.asset, report));
-        let chosen = models.chosen_nodes(reference, &model.asset, report);
         for instance in &model.asset.instances {
             let Some(triangles) = chosen.contains(instance.node).then(|| &model.triangles[instance.mesh])
             else {
@@ -168,7 +166,7 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
         manifest::Worldline::Ring(ring) => Course::Ring {
             circle: Circle::around(ring.centre, ring.axis, ring.radius, ring.start),
             turns: ring.turns,
-            instants: (manifest.exposures.from, manifest.exposures.to),
+            instants: ring_instants(&manifest.exposures),
         },
     };
     let Placement { origin, velocity } = placement(&written.placement);
@@ -191,6 +189,13 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
         field_of_view: written.field_of_view,
         unaberrated: unaberrated(manifest, report),
     }
+}
+
+/// The instants at the two ends of a ring's film. Its last exposure, at `to`, stands one step before the ring closes.
+fn ring_instants(exposures: &manifest::Exposures) -> (f64, f64) {
+    let count = f64::from(exposures.count);
+    let span = (exposures.to - exposures.from) * count / (count - 1.0).max(1.0);
+    (exposures.from, exposures.from + span)
 }
 
 /// The rest frame of all bodies, when aberration is switched off; a fault if they have none in common.

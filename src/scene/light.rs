@@ -57,7 +57,7 @@ pub(super) fn from_file(light: &import::Light, body: Placement, rest_from_asset:
 
 /// A spectral radiance of the manifest.
 pub(super) fn radiance(glow: &manifest::Glow, report: &mut Report) -> Option<Source> {
-    source(&glow.spectrum, glow.brightness, &Place::Command, report)
+    source(&glow.spectrum, glow.brightness, &glow.place, report)
 }
 
 fn source(
@@ -79,7 +79,9 @@ fn source(
             "give it in cd, lx, lm or cd/m2, or use a table",
         ),
     };
-    if source.is_none() {
+    if source.is_none() && spectrum.total() == Some(0.0) {
+        report.fault(place.clone(), "this spectrum is dark at all wavelengths", "give it a value above zero somewhere");
+    } else if source.is_none() {
         report.fault(place.clone(), what, hint);
     }
     source

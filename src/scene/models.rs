@@ -1,8 +1,8 @@
-//! The model files of a manifest, each read once, with a tree for each mesh that a body uses.
+//! The model files of a manifest, each read once, with a tree for each mesh.
 
 use crate::error::{Error, Report, nearest_name};
 use crate::import::{self, Asset};
-use crate::manifest::{AssetRef, Manifest};
+use crate::manifest::{AssetRef, Body, Manifest};
 use crate::triangles::Triangles;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -62,14 +62,30 @@ impl Models {
         Self(models)
     }
 
-    pub(super) fn get(&self, file: &Path) -> Option<&Model> {
+    fn get(&self, file: &Path) -> Option<&Model> {
         self.0.get(file)
     }
 
-    /// The nodes that an asset takes of its file: all, or one with what hangs on it.
-    #[expect(clippy::unused_self, reason = "belongs to the models")]
-    pub(super) fn chosen_nodes(&self, reference: &AssetRef, asset: &Asset, report: &mut Report) -> Chosen {
-        let Some(name) = &reference.node else { return Chosen::All };
+    /// What a body is made of.
+    pub(super) fn of<'a>(&'a self, manifest: &'a Manifest, body: &Body) -> Option<(&'a AssetRef, &'a Model)> {
+        let reference = manifest.assets.get(&body.asset.value)?;
+        Some((reference, self.get(&reference.file.value)?))
+    }
+
+    /// The nodes that each asset takes of its file.
+    pub(super) fn chosen(&self, manifest: &Manifest, report: &mut Report) -> BTreeMap<String, Chosen> {
+        let mut read = |(name, reference): (&String, &AssetRef)| {
+            let model = self.get(&reference.file.value)?;
+            Some((name.clone(), Chosen::of(reference, &model.asset, report)))
+        };
+        manifest.assets.iter().filter_map(&mut read).collect()
+    }
+}
+
+impl Chosen {
+    /// All nodes of a file, or one with what hangs on it.
+    fn of(reference: &AssetRef, asset: &Asset, report: &mut Report) -> Self {
+        let Some(name) = &reference.node else { return Self::All };
         let mut wanted = vec![false; asset.nodes.len()];
         for (i, node) in asset.nodes.iter().enumerate() {
             // Parents come before their children.
@@ -84,7 +100,7 @@ impl Models {
             let what = format!("`{}` has no node named `{}`", asset.path.display(), name.value);
             report.fault(name.place.clone(), what, hint);
         }
-        Chosen::These(wanted)
+        Self::These(wanted)
     }
 }
 

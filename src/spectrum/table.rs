@@ -35,6 +35,12 @@ impl Table {
         self
     }
 
+    /// The integral over the table's wavelengths (nm), exact for what is linear between the rows.
+    pub fn integral(&self) -> f64 {
+        let piece = |i: usize| 0.5 * (self.value[i] + self.value[i - 1]) * (self.nm[i] - self.nm[i - 1]);
+        (1..self.nm.len()).map(piece).sum()
+    }
+
     /// First and last wavelength, nm.
     pub fn range(&self) -> (f64, f64) {
         (self.nm[0], self.nm[self.nm.len() - 1])

@@ -157,7 +157,7 @@ fn all_ways_to_write_a_velocity_agree() {
 fn speeds_just_below_light_are_kept() {
     let gamma = observer("{ velocity: 0 0 0.9999999999999999 c }").placement.velocity.gamma();
     assert!(gamma > 6e7 && gamma < 7e7);
-    assert_eq!(observer("{ velocity: { gamma: 1e8, along: 0 1 0 } }").placement.velocity.gamma(), 1e8);
+    assert_eq!(observer("{ velocity: { gamma: 1e5, along: 0 1 0 } }").placement.velocity.gamma(), 1e5);
 }
 
 #[test]

@@ -76,8 +76,8 @@ fn warn(written: &json::Material, colored: bool, element: &str, job: &mut Job) {
             "in Blender, only the Principled BSDF's colour is exported; the rest is white",
         );
     }
-    if written.alpha_mode == Checked::Valid(AlphaMode::Mask) {
-        let what = "alphaMode MASK is read as BLEND: alpha is coverage, without a threshold";
+    if written.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+        let what = "coverage (alphaMode) is passed over: the surface is opaque";
         job.warn(format!("{element}.alphaMode"), what, "");
     }
 }
