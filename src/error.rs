@@ -202,8 +202,11 @@ impl std::error::Error for Error {
 
 /// The name in `known` nearest to `written`, if one is near enough to be what was meant.
 pub fn nearest_name<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // Longer ones are no slips of the finger, and their distances cost memory.
+    let short = |name: &str| name.len() <= 64;
     known
         .into_iter()
+        .filter(|name| short(name) && short(written))
         .map(|name| (strsim::damerau_levenshtein(&written.to_lowercase(), &name.to_lowercase()), name))
         .filter(|(distance, name)| *distance <= (name.len().max(written.len()) / 3).max(1))
         .min_by_key(|(distance, _)| *distance)

@@ -49,7 +49,9 @@ impl Reconstruction {
         };
         let mut offsets: Vec<DVec2> = (0..samples).map(point).collect();
         let mean = offsets.iter().sum::<DVec2>() / f64::from(samples);
-        offsets.iter_mut().for_each(|offset| *offset -= mean);
+        for offset in &mut offsets {
+            *offset -= mean;
+        }
         offsets
     }
 }
@@ -92,6 +94,9 @@ impl Development {
     pub fn display(&self, xyz: DVec3) -> DVec3 {
         let relative = xyz / self.white;
         let y = relative.y;
+        if y == f64::INFINITY {
+            return DVec3::ONE; // Brighter than numbers go.
+        }
         if !(y > 0.0 && relative.is_finite()) {
             return DVec3::ZERO;
         }
@@ -133,16 +138,13 @@ impl EncodingSteps {
     }
 }
 
-/// The luminance that should become white so that the logarithmic mean of all lit pixels is a middle grey of 18 %.
+/// The luminance that should become white: 85 in 100 of the lit pixels then lie below 60 % of it.
 ///
-/// None if nothing is lit.
+/// A quantile, because a film at 0.9 c holds brightnesses from 1e-5 to 1e5 that no mean should follow. None if nothing
+/// is lit.
 pub fn meter(luminances: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let (mut sum, mut lit) = (0.0, 0_u32);
-    for luminance in luminances {
-        if luminance > 0.0 && luminance.is_finite() {
-            sum += libm::log(luminance);
-            lit += 1;
-        }
-    }
-    (lit > 0).then(|| libm::exp(sum / f64::from(lit)) / 0.18)
+    let is_lit = |luminance: &f64| *luminance > 0.0 && luminance.is_finite();
+    let mut lit: Vec<f64> = luminances.into_iter().filter(is_lit).collect();
+    let place = lit.len() * 85 / 100;
+    (!lit.is_empty()).then(|| *lit.select_nth_unstable_by(place, f64::total_cmp).1 / 0.6)
 }

@@ -13,7 +13,7 @@ pub enum Beam {
         place: DVec3,
     },
     /// A cone from one point: full inside the inner angle, none outside the outer, and in between the square of the
-    /// cosine's part of the way (KHR_lights_punctual).
+    /// cosine's part of the way (`KHR_lights_punctual`).
     Spot {
         /// Where it stands.
         place: DVec3,
@@ -73,7 +73,9 @@ impl Lamp {
         let cone = match self.beam {
             Beam::Spot { axis, cos_inner, cos_outer, .. } => {
                 let cos = -toward.dot(axis) / distance;
-                let part = ((cos - cos_outer) / (cos_inner - cos_outer).max(1e-6)).clamp(0.0, 1.0);
+                let width = cos_inner - cos_outer;
+                let part = if width > 0.0 { (cos - cos_outer) / width } else { f64::from(cos >= cos_outer) };
+                let part = part.clamp(0.0, 1.0);
                 part * part
             }
             _ => 1.0,

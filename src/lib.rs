@@ -1,12 +1,18 @@
 //! What a camera would really see when things move near the speed of light.
+pub mod cli;
 pub mod color;
+pub mod diagnostic;
 pub mod error;
 pub mod exposure;
 pub mod film;
 pub mod import;
 pub mod lamp;
+pub mod manifest;
 pub mod mesh;
 pub mod observer;
+pub mod output;
+pub mod plan;
+pub mod render;
 pub mod scene;
 pub mod spacetime;
 pub mod spectrum;

@@ -3,9 +3,9 @@
 //! Texels are kept in the width of the file (8 or 16 bits or float) and decoded when they are looked up.
 //! All values that leave this module are linear: sRGB is decoded here and nowhere else.
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// How stored numbers become linear ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,9 +87,215 @@ pub struct Texture {
     pub transform: DAffine2,
 }
 
+/// The linear value of an sRGB-encoded one, both from 0 to 1.
+pub fn linear_from_srgb(c: f32) -> f32 {
+    crate::color::srgb_decode(f64::from(c)) as f32
+}
+
+/// All 8-bit sRGB values, decoded.
+static SRGB_BYTES: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|i| linear_from_srgb(i as f32 / 255.0)));
+
+/// All 16-bit sRGB values, decoded.
+static SRGB_WORDS: LazyLock<Vec<f32>> =
+    LazyLock::new(|| (0..=u16::MAX).map(|i| linear_from_srgb(f32::from(i) / 65535.0)).collect());
+
+impl Picture {
+    /// The linear RGBA of the texel at a column and a row, which must be inside.
+    fn texel(&self, column: usize, row: usize) -> [f32; 4] {
+        let at = row * self.width as usize + column;
+        let srgb = self.encoding == Encoding::Srgb;
+        match &self.texels {
+            Texels::Byte(v) => {
+                let [r, g, b, a] = v[at];
+                let value = |c: u8| {
+                    if srgb { SRGB_BYTES[usize::from(c)] } else { f32::from(c) / 255.0 }
+                };
+                [value(r), value(g), value(b), f32::from(a) / 255.0]
+            }
+            Texels::Word(v) => {
+                let [r, g, b, a] = v[at];
+                let value = |c: u16| {
+                    if srgb { SRGB_WORDS[usize::from(c)] } else { f32::from(c) / 65535.0 }
+                };
+                [value(r), value(g), value(b), f32::from(a) / 65535.0]
+            }
+            Texels::Float(v) => v[at],
+        }
+    }
+}
+
+impl Wrap {
+    /// A texture coordinate brought near to the picture, so that texel numbers stay small and exact.
+    fn coordinate(self, u: f64) -> f64 {
+        match self {
+            _ if !u.is_finite() => 0.0,
+            Self::Repeat => u - u.floor(),
+            Self::Mirror => u - 2.0 * (u / 2.0).floor(),
+            Self::Clamp => u.clamp(0.0, 1.0),
+        }
+    }
+
+    /// The texel of a row of `size` that stands in for number `i`, up to one beyond the range that
+    /// [`Wrap::coordinate`] leaves.
+    fn texel(self, i: i64, size: u32) -> usize {
+        let size = i64::from(size);
+        let inside = match self {
+            Self::Repeat if i < 0 => i + size,
+            Self::Repeat if i >= size => i - size,
+            Self::Mirror if i < 0 => -1 - i,
+            Self::Mirror if i >= 2 * size => i - 2 * size,
+            Self::Mirror if i >= size => 2 * size - 1 - i,
+            _ => i,
+        };
+        inside.clamp(0, size - 1) as usize
+    }
+}
+
 impl Texture {
-    /// tmp
-    pub fn rgba(&self, _uv: glam::DVec2) -> [f32; 4] {
-        [1.0; 4]
+    /// The linear RGBA at a pair of the mesh's texture coordinates; the origin is the upper left corner of
+    /// the upper left texel, whose centre is half a texel right of and below it.
+    ///
+    /// Alpha is not multiplied in. Coordinates that are not finite count as zero. Values are decoded
+    /// before they are mixed, so that the mean of black and white is half the light of white.
+    pub fn rgba(&self, uv: DVec2) -> [f32; 4] {
+        let uv = self.transform.transform_point2(uv);
+        let picture = &*self.picture;
+        let x = self.wrap[0].coordinate(uv.x) * f64::from(picture.width);
+        let y = self.wrap[1].coordinate(uv.y) * f64::from(picture.height);
+        let column = |i: f64| self.wrap[0].texel(i as i64, picture.width);
+        let row = |i: f64| self.wrap[1].texel(i as i64, picture.height);
+        if self.filter == Filter::Nearest {
+            return picture.texel(column(x.floor()), row(y.floor()));
+        }
+        let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
+        let (right, down) = ((x - 0.5 - left) as f32, (y - 0.5 - top) as f32);
+        let columns = [column(left), column(left + 1.0)];
+        let rows = [row(top), row(top + 1.0)];
+        let [upper, lower] =
+            rows.map(|row| mix(picture.texel(columns[0], row), picture.texel(columns[1], row), right));
+        mix(upper, lower, down)
+    }
+}
+
+/// `a` for a share of 0, `b` for a share of 1.
+fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
+    std::array::from_fn(|i| a[i] * (1.0 - share) + b[i] * share)
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "the numbers are binary fractions, and exact")]
+mod tests {
+    use super::*;
+
+    /// A row of texels whose red is as given, with alpha for the number of the row.
+    fn texture(width: u32, reds: &[f32], wrap: Wrap, filter: Filter) -> Texture {
+        let height = reds.len() as u32 / width;
+        let texels =
+            reds.iter().enumerate().map(|(i, &r)| [r, 0.0, 0.0, (i as u32 / width) as f32]).collect();
+        let picture = Picture { width, height, texels: Texels::Float(texels), encoding: Encoding::Linear };
+        Texture {
+            picture: Arc::new(picture),
+            wrap: [wrap; 2],
+            filter,
+            uv_set: 0,
+            transform: DAffine2::IDENTITY,
+        }
+    }
+
+    fn reds(texture: &Texture, us: &[f64]) -> Vec<f32> {
+        us.iter().map(|&u| texture.rgba(DVec2::new(u, 0.5))[0]).collect()
+    }
+
+    #[test]
+    fn texel_centres_are_half_a_texel_in() {
+        let texture = texture(2, &[1.0, 2.0, 3.0, 4.0], Wrap::Clamp, Filter::Linear);
+        let at = |u, v| texture.rgba(DVec2::new(u, v));
+        assert_eq!(at(0.25, 0.25), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(at(0.75, 0.25), [2.0, 0.0, 0.0, 0.0]);
+        assert_eq!(at(0.25, 0.75), [3.0, 0.0, 0.0, 1.0]);
+        assert_eq!(at(0.75, 0.75), [4.0, 0.0, 0.0, 1.0]);
+        assert_eq!(at(0.5, 0.5), [2.5, 0.0, 0.0, 0.5]);
+        assert_eq!(at(0.375, 0.25)[0], 1.25);
+    }
+
+    #[test]
+    fn repeated_texture_mixes_its_last_texel_with_its_first() {
+        let texture = texture(4, &[0.0, 1.0, 2.0, 3.0], Wrap::Repeat, Filter::Linear);
+        assert_eq!(reds(&texture, &[0.0, 1.0, -7.0, 0.125, 1.125, -0.125]), [1.5, 1.5, 1.5, 0.0, 0.0, 3.0]);
+    }
+
+    #[test]
+    fn mirrored_texture_runs_back_every_other_time() {
+        let texture = texture(4, &[0.0, 1.0, 2.0, 3.0], Wrap::Mirror, Filter::Linear);
+        assert_eq!(
+            reds(&texture, &[0.125, -0.125, 2.125, 1.125, 1.875, -1.125]),
+            [0.0, 0.0, 0.0, 3.0, 0.0, 3.0]
+        );
+        assert_eq!(reds(&texture, &[0.0, 1.0, 0.25, -0.25, 1.75]), [0.0, 3.0, 0.5, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn clamped_texture_goes_on_with_its_edge() {
+        let texture = texture(4, &[5.0, 1.0, 2.0, 3.0], Wrap::Clamp, Filter::Linear);
+        assert_eq!(reds(&texture, &[0.0, -9.0, 1.0, 1e300, 0.25]), [5.0, 5.0, 3.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn nearest_texel_is_the_one_it_lies_in() {
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let texture = texture(4, &[0.0, 1.0, 2.0, 3.0], wrap, Filter::Nearest);
+            assert_eq!(reds(&texture, &[0.0, 0.2499, 0.25, 0.99]), [0.0, 0.0, 1.0, 3.0], "{wrap:?}");
+        }
+        let beyond =
+            |wrap| reds(&texture(4, &[0.0, 1.0, 2.0, 3.0], wrap, Filter::Nearest), &[-0.1, 1.1, 1.0]);
+        assert_eq!(beyond(Wrap::Repeat), [3.0, 0.0, 0.0]);
+        assert_eq!(beyond(Wrap::Mirror), [0.0, 3.0, 3.0]);
+        assert_eq!(beyond(Wrap::Clamp), [0.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn coordinates_that_are_no_numbers_count_as_zero() {
+        let texture = texture(1, &[7.0], Wrap::Repeat, Filter::Linear);
+        assert_eq!(reds(&texture, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300]), [7.0; 4]);
+    }
+
+    #[test]
+    fn transform_comes_before_everything_else() {
+        let mut texture = texture(4, &[0.0, 1.0, 2.0, 3.0], Wrap::Repeat, Filter::Linear);
+        texture.transform =
+            DAffine2::from_scale_angle_translation(DVec2::new(2.0, 1.0), 0.0, DVec2::new(0.25, 0.0));
+        assert_eq!(reds(&texture, &[0.0625, 0.1875, 0.4375]), [1.0, 2.0, 0.0]);
+    }
+
+    #[test]
+    fn colours_are_decoded_before_they_are_mixed_and_alpha_is_not_decoded() {
+        let texels = vec![[0, 0, 0, 0], [255, 255, 255, 255]];
+        let picture = |texels, encoding| Picture { width: 2, height: 1, texels, encoding };
+        let mut texture = texture(1, &[0.0], Wrap::Clamp, Filter::Linear);
+        texture.picture = Arc::new(picture(Texels::Byte(texels), Encoding::Srgb));
+        assert_eq!(texture.rgba(DVec2::new(0.5, 0.5)), [0.5; 4]);
+        let middle = vec![[188, 188, 188, 51]; 2];
+        texture.picture = Arc::new(picture(Texels::Byte(middle.clone()), Encoding::Srgb));
+        let [red, _, _, alpha] = texture.rgba(DVec2::ZERO);
+        assert!((red - 0.502_886).abs() < 1e-6, "{red}");
+        assert!((alpha - 0.2).abs() < 1e-7);
+        texture.picture = Arc::new(picture(Texels::Byte(middle), Encoding::Linear));
+        assert!((texture.rgba(DVec2::ZERO)[0] - 188.0 / 255.0).abs() < 1e-7);
+        let words = vec![[188 * 257, 0, 65535, 13107]; 2];
+        texture.picture = Arc::new(picture(Texels::Word(words), Encoding::Srgb));
+        let [red, green, blue, alpha] = texture.rgba(DVec2::ZERO);
+        assert!((red - 0.502_886).abs() < 1e-6, "{red}");
+        assert_eq!((green, blue), (0.0, 1.0));
+        assert!((alpha - 0.2).abs() < 1e-7);
+    }
+
+    #[test]
+    fn srgb_has_the_standards_values_at_both_ends_of_each_piece() {
+        assert_eq!(linear_from_srgb(0.0), 0.0);
+        assert_eq!(linear_from_srgb(1.0), 1.0);
+        assert!((linear_from_srgb(0.04045) - 0.003_130_8).abs() < 1e-7);
+        assert!((linear_from_srgb(0.040_451) - 0.003_130_8).abs() < 1e-6);
+        assert!((linear_from_srgb(0.5) - 0.214_041).abs() < 1e-6);
     }
 }

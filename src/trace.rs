@@ -142,7 +142,7 @@ impl Lit<'_> {
         let spot = hit.spot(ray);
         let omega = spot.k.t;
         let shift = self.effects.shift(omega);
-        let nm = wavelengths.nm.map(|nm| nm / shift);
+        let nm = scaled(&wavelengths.nm, 1.0 / shift);
         let seen = Seen { departure: spot.departure(hit.rest), spot, omega, shift, nm, path };
 
         if let Some(glow) = &surface.glow {
@@ -217,7 +217,7 @@ impl Lit<'_> {
         let doppler = omega / connection.omega;
         let shift = self.effects.shift(doppler);
         let factor = self.effects.gain(doppler, 3) * connection.dilution * cosine * FRAC_1_PI;
-        let at_lamp = lamp.source.at_each(&seen.nm.map(|nm| nm * shift));
+        let at_lamp = lamp.source.at_each(&scaled(&seen.nm, shift));
         for (value, intensity) in arriving.iter_mut().zip(at_lamp) {
             *value += factor * intensity;
         }
@@ -272,4 +272,14 @@ impl Lit<'_> {
         let power = line.power * through * self.effects.gain(seen.omega, -5) * seen.shift;
         light.lines += Wavelengths::<N>::line_xyz(wavelength_nm, power);
     }
+}
+
+/// Wavelengths in another rest frame. (A loop, since `map` on an array is not inlined.)
+#[inline]
+fn scaled<const N: usize>(nm: &[f64; N], factor: f64) -> [f64; N] {
+    let mut scaled = *nm;
+    for nm in &mut scaled {
+        *nm *= factor;
+    }
+    scaled
 }

@@ -56,19 +56,24 @@ impl Bounds {
     }
 
     /// Where the line is inside, as a stretch of s (which may be empty: first > last).
-    fn stretch(self, line: &Line) -> (f64, f64) {
+    ///
+    /// `inverse`: one over the line's step, infinite where that is zero.
+    #[inline]
+    fn stretch(self, line: &Line, inverse: DVec3) -> (f64, f64) {
         let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
-            let (o, d) = (line.origin[axis], line.step[axis]);
-            if d == 0.0 {
+            let (o, d) = (line.origin[axis], inverse[axis]);
+            let (a, b) = ((self.lo[axis] - o) * d, (self.hi[axis] - o) * d);
+            if d.is_infinite() {
+                // Never enters or never leaves (0 times infinity is not a number).
                 if o < self.lo[axis] || o > self.hi[axis] {
                     return (f64::INFINITY, f64::NEG_INFINITY);
                 }
                 continue;
             }
-            let (a, b) = ((self.lo[axis] - o) / d, (self.hi[axis] - o) / d);
-            first = first.max(a.min(b));
-            last = last.min(a.max(b));
+            let (near, far) = if a < b { (a, b) } else { (b, a) };
+            first = if near > first { near } else { first };
+            last = if far < last { far } else { last };
         }
         (first, last)
     }
@@ -89,6 +94,8 @@ struct Node {
 #[derive(Debug, Clone)]
 pub struct Tree {
     bounds: Bounds,
+    // The bounds, widened by more than all padding.
+    entrance: Bounds,
     centre: DVec3,
     scale: f64,
     nodes: Vec<Node>,
@@ -108,7 +115,8 @@ impl Tree {
     pub fn build(boxes: &[Bounds]) -> Self {
         let bounds = boxes.iter().fold(Bounds::EMPTY, |a, b| a.with(*b));
         if boxes.is_empty() {
-            return Self { bounds, centre: DVec3::ZERO, scale: 1.0, nodes: Vec::new(), items: Vec::new() };
+            let (nodes, items) = (Vec::new(), Vec::new());
+            return Self { bounds, entrance: bounds, centre: DVec3::ZERO, scale: 1.0, nodes, items };
         }
         let centre = 0.5 * bounds.lo + 0.5 * bounds.hi;
         let half = (bounds.hi - centre).max_element();
@@ -127,8 +135,10 @@ impl Tree {
             groups.first.iter().map(|&i| unit[i as usize]).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
         let mut seconds = Duration::ZERO;
         let built = build_bvh2(&boxed, BvhBuildParams::medium_build(), &mut seconds);
-        let mut tree =
-            Self { bounds, centre, scale, nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
+        let pad = f64::from(4.0 * PAD) * half;
+        let entrance = Bounds { lo: bounds.lo - pad, hi: bounds.hi + pad };
+        let items = Vec::with_capacity(boxes.len());
+        let mut tree = Self { bounds, entrance, centre, scale, nodes: Vec::new(), items };
         tree.adopt(&built, &groups);
         tree
     }
@@ -184,20 +194,17 @@ impl Tree {
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
-            let near = [0, 1].map(|side| walk.entry(node.lo[side], node.hi[side]));
+            let near = [walk.entry(node.lo[0], node.hi[0]), walk.entry(node.lo[1], node.hi[1])];
             let order = if near[1] < near[0] { [1, 0] } else { [0, 1] };
             let mut next = None;
             for side in order {
                 if near[side] > walk.t_max {
                     continue;
                 }
-                if node.count[side] == 0 {
-                    if next.is_none() {
-                        next = Some(node.first[side]);
-                    } else {
-                        stack.push(near[side], node.first[side]);
-                    }
-                    continue;
+                match (node.count[side], next) {
+                    (0, None) => next = Some(node.first[side]),
+                    (0, Some(_)) => stack.push(near[side], node.first[side]),
+                    _ => {}
                 }
                 let begin = node.first[side] as usize;
                 for &item in &self.items[begin..begin + node.count[side] as usize] {
@@ -206,15 +213,12 @@ impl Tree {
                 if limit < 0.0 {
                     return limit;
                 }
-                walk.limit(limit);
+                if node.count[side] > 0 {
+                    walk.limit(limit);
+                }
             }
-            at = match next {
-                Some(next) => next,
-                None => match stack.pop(walk.t_max) {
-                    Some(next) => next,
-                    None => return limit,
-                },
-            };
+            let Some(follow) = next.or_else(|| stack.pop(walk.t_max)) else { return limit };
+            at = follow;
         }
     }
 
@@ -224,20 +228,18 @@ impl Tree {
         if self.nodes.is_empty() {
             return None;
         }
-        let pad = f64::from(4.0 * PAD) / self.scale;
-        let padded = Bounds { lo: self.bounds.lo - pad, hi: self.bounds.hi + pad };
-        let (first, last) = padded.stretch(line);
-        let first = first.max(0.0);
-        if first > last || first >= s_max {
+        let inverse = 1.0 / line.step;
+        let (first, last) = self.entrance.stretch(line, inverse);
+        let first = if first > 0.0 { first } else { 0.0 };
+        // Not `first > last`: a line that is not a number meets nothing.
+        if !(first <= last && first < s_max) {
             return None;
         }
-        let step = line.step * self.scale;
-        let length = step.length();
-        let start = ((line.origin - self.centre) * self.scale + step * first).as_vec3();
-        let direction = step / length;
-        // Below 1e-12 a component moves nothing across the tree: its inverse is kept finite.
-        let inverse = |d: f64| (1.0 / if d.abs() < 1e-12 { 1e-12_f64.copysign(d) } else { d }) as f32;
-        let inverse = Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z));
+        let length = line.step.length() * self.scale;
+        let start = ((line.origin + line.step * first - self.centre) * self.scale).as_vec3();
+        // Below 1e-12 of the length a component moves nothing across the tree: its inverse is kept finite.
+        let inverse =
+            (inverse * (length / self.scale)).clamp(DVec3::splat(-1e12), DVec3::splat(1e12)).as_vec3();
         let mut walk = Walk { start, inverse, first, length, t_max: f32::MAX };
         walk.limit(s_max);
         length.is_finite().then_some(walk)
@@ -275,14 +277,14 @@ impl Walk {
 /// Nodes still to be visited, with their entries; on the heap only in very deep trees.
 struct Stack {
     top: usize,
-    fixed: [(f32, u32); 64],
+    fixed: [(f32, u32); 32],
     spill: Vec<(f32, u32)>,
 }
 
 impl Stack {
     #[inline]
     fn new() -> Self {
-        Self { top: 0, fixed: [(0.0, 0); 64], spill: Vec::new() }
+        Self { top: 0, fixed: [(0.0, 0); 32], spill: Vec::new() }
     }
 
     #[inline]

@@ -68,7 +68,9 @@ impl Triangles {
 
     #[inline]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
-        let (s, weights) = line.meet(self.corners(triangle))?;
+        let [a, b, c] = self.mesh.triangles[triangle as usize];
+        let corner = |i: u32| self.mesh.positions[i as usize].as_ref();
+        let (s, weights) = line.meet([corner(a), corner(b), corner(c)])?;
         (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
     }
 }
@@ -78,10 +80,12 @@ impl Triangles {
 ///
 /// Source: Woop, Benthin and Wald, JCGT 2(1), 2013; here in f64 throughout.
 struct Sheared {
-    origin: DVec3,
-    // The axis along which the line moves most, and the two others.
+    // The axis along which the line moves most comes last; the two others keep the hand.
     axes: [usize; 3],
-    shear: DVec3,
+    // Coordinates in that order.
+    origin: [f64; 3],
+    shear: [f64; 2],
+    per_depth: f64,
 }
 
 impl Sheared {
@@ -99,21 +103,30 @@ impl Sheared {
         if line.step[z] < 0.0 {
             std::mem::swap(&mut x, &mut y);
         }
-        let along = line.step[z];
-        let shear = DVec3::new(line.step[x] / along, line.step[y] / along, 1.0 / along);
-        Self { origin: line.origin, axes: [x, y, z], shear }
+        let per_depth = 1.0 / line.step[z];
+        Self {
+            axes: [x, y, z],
+            origin: [line.origin[x], line.origin[y], line.origin[z]],
+            shear: [line.step[x] * per_depth, line.step[y] * per_depth],
+            per_depth,
+        }
+    }
+
+    /// A corner across the line (x, y) and along it.
+    #[inline]
+    fn across(&self, corner: &[f32; 3]) -> (f64, f64, f64) {
+        let depth = f64::from(corner[self.axes[2]]) - self.origin[2];
+        let x = f64::from(corner[self.axes[0]]) - self.origin[0] - self.shear[0] * depth;
+        let y = f64::from(corner[self.axes[1]]) - self.origin[1] - self.shear[1] * depth;
+        (x, y, depth)
     }
 
     /// Parameter s and the weights of the second and the third corner.
     #[inline]
-    fn meet(&self, corners: [DVec3; 3]) -> Option<(f64, (f64, f64))> {
-        let [x, y, z] = self.axes;
-        let flat = corners.map(|corner| {
-            let p = corner - self.origin;
-            DVec3::new(p[x] - self.shear.x * p[z], p[y] - self.shear.y * p[z], p[z])
-        });
-        let edge = |a: DVec3, b: DVec3| a.x * b.y - a.y * b.x;
-        let (u, v, w) = (edge(flat[2], flat[1]), edge(flat[0], flat[2]), edge(flat[1], flat[0]));
+    fn meet(&self, [a, b, c]: [&[f32; 3]; 3]) -> Option<(f64, (f64, f64))> {
+        let (a, b, c) = (self.across(a), self.across(b), self.across(c));
+        let edge = |p: (f64, f64, f64), q: (f64, f64, f64)| p.0 * q.1 - p.1 * q.0;
+        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
         }
@@ -121,7 +134,7 @@ impl Sheared {
         if sum == 0.0 {
             return None;
         }
-        let depth = u * flat[0].z + v * flat[1].z + w * flat[2].z;
-        Some((depth * self.shear.z / sum, (v / sum, w / sum)))
+        let depth = u * a.2 + v * b.2 + w * c.2;
+        Some((depth * self.per_depth / sum, (v / sum, w / sum)))
     }
 }

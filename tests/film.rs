@@ -201,10 +201,20 @@ fn encoding_is_undone_by_decoding() {
 }
 
 #[test]
-fn meter_puts_even_light_at_middle_grey() {
-    let white = meter([3.0; 50]).unwrap();
-    close(3.0 / white, 0.18, 1e-12);
-    close(meter([1.0, 100.0, 0.0, f64::NAN]).unwrap() * 0.18, 10.0, 1e-12);
+fn meter_follows_neither_the_brightest_nor_the_darkest() {
+    // 85 in 100 lie below 60 % of white; a film of one brightness is at 60 % itself.
+    close(3.0 / meter([3.0; 50]).unwrap(), 0.6, 1e-12);
+    let mixed = (0..100).map(|i| {
+        if i < 10 {
+            1e-5
+        } else if i < 95 {
+            4.0
+        } else {
+            1e5
+        }
+    });
+    close(4.0 / meter(mixed).unwrap(), 0.6, 1e-12);
+    close(2.0 / meter([0.0, f64::NAN, 2.0]).unwrap(), 0.6, 1e-12);
     assert!(meter([0.0, 0.0]).is_none());
 }
 

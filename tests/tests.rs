@@ -1,7 +1,5 @@
-//! The laws: one module for each, every test a sentence that is true.
-#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that fails may panic")]
-
-mod support;
+//! The laws and requirements that the program is held to, a module for each.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod aberration;
 mod boost;
@@ -11,14 +9,21 @@ mod effects;
 mod equivalence;
 mod film;
 mod furnace;
+mod import;
 mod lamp;
+mod manifest;
 mod mirror;
+#[cfg(feature = "video")]
+mod movie;
+mod output;
 mod radiance;
 mod shadow;
 mod spectrum;
+mod support;
 mod terrell;
 mod tint;
 mod tree;
 mod velocity;
 mod world;
 mod worldline;
+mod written;

@@ -119,7 +119,7 @@ proptest! {
         start in velocities(2.0), axis in vectors(), turn in -3.0..3.0_f64, a in vectors(), fast in -3.0..3.0_f64, tau in -2.0..2.0_f64
     ) {
         let circle = Circle::around(a, axis, 2.0, turn);
-        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, Course::Ring { circle }] {
+        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, Course::Ring { circle, turns: 1.0, instants: (0.0, 0.0) }] {
             let turned = DQuat::from_axis_angle(axis / axis.length(), turn);
             let tetrad = Worldline::new(Event::new(1.0, a), start, turned, course).at(tau);
             let axes = axes(&tetrad);
@@ -206,7 +206,7 @@ fn ring_stands_still_in_time() {
         Event::new(2.0, DVec3::ZERO),
         Velocity::REST,
         DQuat::IDENTITY,
-        Course::Ring { circle },
+        Course::Ring { circle, turns: 1.0, instants: (0.0, 0.0) },
     );
     for (turns, place) in
         [(0.0, v(1.0, 0.0, 3.0)), (0.25, v(4.0, 0.0, 0.0)), (0.5, v(1.0, 0.0, -3.0)), (1.0, v(1.0, 0.0, 3.0))]

@@ -1,13 +1,30 @@
 //! A model file, as written, becomes an [`Asset`]: meshes, materials, lights and cameras in the asset's own
 //! space (metres, y up), with every number checked.
 //!
-//! By extension: `.glb` and `.gltf` ([`gltf`]), `.obj` ([`obj`]).
+//! By extension: `.glb` and `.gltf`, and `.obj` with its `.mtl`. A model file is not trusted: [`load`] reads
+//! nothing outside of one folder, checks counts against what is there before it allocates, and gives an
+//! error with the place of every fault it finds.
+//!
+//! Of glTF 2.0: the default scene with its nodes, triangles, base and emissive colours with their textures,
+//! lights and cameras. Skinned and morphed meshes stand in their rest pose; metalness, roughness, normal maps
+//! and animations are passed over. Coverage (`alphaMode`) is kept in the alpha of colours, and not used yet.
+//!
+//! Of OBJ: polygons, concave ones too, with normals as written or flat (smoothing groups are not read), the
+//! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `map_Kd`, `map_Ke`.
 
-use crate::error::Fault;
+mod files;
+mod gltf;
+mod obj;
+mod picture;
+mod shape;
+
+use crate::error::{Error, Fault, Place, Report};
 use crate::mesh::Mesh;
 use crate::texture::Texture;
+use files::Files;
 use glam::DAffine3;
-use std::path::PathBuf;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A surface as the file describes it. Colours are linear sRGB.
@@ -118,4 +135,113 @@ pub struct Asset {
     pub animations: Vec<String>,
     /// What the file has and this program passes over, and what looks like a mistake.
     pub warnings: Vec<Fault>,
+}
+
+/// The most faults (and warnings) that one file may report; the rest are only counted.
+const REPORT_LIMIT: usize = 50;
+
+/// Reads a model file and the files it names.
+///
+/// The extension says which format it is, in capitals or not. No file outside of the folder `root` is read,
+/// not even through a link. The error holds all faults found, each with the file and the element.
+pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    let read = match extension.as_str() {
+        "glb" | "gltf" => gltf::read,
+        "obj" => obj::read,
+        _ => {
+            return Err(Error::fault(
+                Place::file(path),
+                "not a kind of model file that is known",
+                "the supported ones end in .glb, .gltf or .obj: export it as one of these",
+            ));
+        }
+    };
+    let (files, folder, bytes) = Files::open(path, root)?;
+    let mut job =
+        Job { path: path.to_owned(), folder, files, report: Report::default(), faults: 0, warnings: 0 };
+    // Two of the crates underneath have been seen to panic on malformed files. Everything that does so is
+    // checked before; this is for what nobody has seen yet.
+    let asset = catch_unwind(AssertUnwindSafe(|| read(&bytes, &mut job))).unwrap_or_else(|_| {
+        let what = "reading this file failed in a way that was not foreseen";
+        job.found(Fault::new(Place::file(path), what, "please report it with the file"));
+        None
+    });
+    if asset.is_none() && job.faults == 0 {
+        job.found(Fault::new(Place::file(path), "this file could not be read", ""));
+    }
+    let Job { mut report, faults, warnings, .. } = job;
+    more(&mut report.faults, faults, path, "faults");
+    more(&mut report.warnings, warnings, path, "warnings");
+    let warnings = std::mem::take(&mut report.warnings);
+    let mut asset = report.finish(asset)?;
+    path.clone_into(&mut asset.path);
+    asset.warnings = warnings;
+    Ok(asset)
+}
+
+/// Says how many were found beyond those kept.
+fn more(list: &mut Vec<Fault>, found: usize, path: &Path, of_what: &str) {
+    let more = found.saturating_sub(list.len());
+    if more > 0 {
+        list.push(Fault::new(Place::file(path), format!("{more} more {of_what} like these"), ""));
+    }
+}
+
+/// One run of an importer: what is read, from where, and what was found.
+#[derive(Debug)]
+struct Job {
+    /// The model file as the user named it.
+    path: PathBuf,
+    /// The folder it is in, without links.
+    folder: PathBuf,
+    files: Files,
+    /// The first faults and warnings.
+    report: Report,
+    /// The number of all faults found.
+    faults: usize,
+    /// The number of all warnings found.
+    warnings: usize,
+}
+
+impl Job {
+    /// Takes note of a fault.
+    fn found(&mut self, fault: Fault) {
+        self.faults += 1;
+        if self.report.faults.len() < REPORT_LIMIT {
+            self.report.faults.push(fault);
+        }
+    }
+
+    /// Takes note of a warning.
+    fn noticed(&mut self, warning: Fault) {
+        self.warnings += 1;
+        if self.report.warnings.len() < REPORT_LIMIT {
+            self.report.warnings.push(warning);
+        }
+    }
+
+    fn fault(&mut self, element: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) {
+        self.found(Fault::new(Place::element(&self.path, element), what, hint));
+    }
+
+    fn warn(&mut self, element: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) {
+        self.noticed(Fault::new(Place::element(&self.path, element), what, hint));
+    }
+
+    fn refused(&mut self, element: impl Into<String>, refusal: files::Refusal) {
+        self.found(refusal.at(Place::element(&self.path, element)));
+    }
+}
+
+/// What triangles without a material are made of: white.
+fn default_material() -> Material {
+    Material {
+        name: String::new(),
+        base_color: [1.0; 4],
+        base_texture: None,
+        emissive: [0.0; 3],
+        emissive_texture: None,
+        unlit: false,
+    }
 }

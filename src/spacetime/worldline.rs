@@ -25,10 +25,14 @@ pub enum Course {
         /// Speed as proper speed γβ; negative against the right-handed sense.
         proper_speed: f64,
     },
-    /// Observers at rest at one instant, all round a circle; `tau` counts the turns.
+    /// Observers at rest all round a circle, each for one exposure; `tau` goes from 0 (the first) to 1 (a whole film).
     Ring {
         /// Where they stand.
         circle: Circle,
+        /// How often the film goes round.
+        turns: f64,
+        /// Starting-frame time of the first and of the last, metres; the same for a frozen instant.
+        instants: (f64, f64),
     },
 }
 
@@ -88,7 +92,7 @@ impl Worldline {
         &self.course
     }
 
-    /// In the starting frame at proper time `tau` (metres; a ring: turns): the event, and the velocity.
+    /// In the starting frame at proper time `tau` (metres; a ring: part of the film): the event, and the velocity.
     fn in_start(&self, tau: f64) -> (Event<Rest>, Velocity) {
         match self.course {
             Course::Inertial => (Event::new(tau, DVec3::ZERO), Velocity::REST),
@@ -105,8 +109,9 @@ impl Worldline {
                 let (place, along) = circle.at(proper_speed * tau / circle.radius.length());
                 (Event::new(gamma * tau, place), Velocity::from_proper(along * proper_speed))
             }
-            Course::Ring { circle } => {
-                (Event::new(0.0, circle.at(std::f64::consts::TAU * tau).0), Velocity::REST)
+            Course::Ring { circle, turns, instants: (first, last) } => {
+                let (place, _) = circle.at(std::f64::consts::TAU * turns * tau);
+                (Event::new(first + (last - first) * tau, place), Velocity::REST)
             }
         }
     }

@@ -17,7 +17,7 @@ const HC_OVER_K_NM: f64 = 1.438_776_877_503_933_4e7;
 pub fn planck(wavelength_nm: f64, temperature_k: f64) -> f64 {
     let metres = wavelength_nm * 1e-9;
     let squared = metres * metres;
-    TWO_H_C2_PER_NM / (squared * squared * metres) / expm1(HC_OVER_K_NM / (wavelength_nm * temperature_k))
+    TWO_H_C2_PER_NM / (squared * squared * metres * expm1(HC_OVER_K_NM / (wavelength_nm * temperature_k)))
 }
 
 /// `exp(x) - 1` for x ≥ 0 without a branch, so that a loop over wavelengths runs in vectors.

@@ -46,14 +46,19 @@ impl Reflectance {
             Self::Constant(value) => [*value; N],
             Self::Rgb(rgb) => {
                 let primaries = &*PRIMARIES;
-                wavelengths_nm.map(|nm| rgb_at(primaries, *rgb, nm))
+                let mut values = [0.0; N];
+                for (value, nm) in values.iter_mut().zip(wavelengths_nm) {
+                    *value = rgb_at(primaries, *rgb, *nm);
+                }
+                values
             }
             Self::Table(table) => wavelengths_nm.map(|nm| table.at(nm)),
         }
     }
 }
 
-#[inline]
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "the inside of the loop over wavelengths")]
 fn rgb_at(primaries: &[[f64; 4]; ROWS], rgb: [f64; 3], wavelength_nm: f64) -> f64 {
     let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, (ROWS - 1) as f64);
     let row = (place as usize).min(ROWS - 2);

@@ -8,7 +8,7 @@ use crate::color;
 pub enum Illuminant {
     /// Daylight, 6504 K.
     D65,
-    /// Incandescent light: a black body of 2855.5 K on the present temperature scale (CIE 15:2018: 2848 K with c₂ = 1.435e-2).
+    /// Incandescent light: a black body of 2855.5 K.
     A,
     /// The same at every wavelength.
     E,
@@ -66,8 +66,14 @@ enum Smooth {
     Gauss { centre_nm: f64, sigma_nm: f64 },
 }
 
+/// Illuminant A: 2848 K with c₂ = 1.435e-2 m K, on the present temperature scale (CIE 15:2018).
+const ILLUMINANT_A_K: f64 = 2848.0 * 1.438_776_877 / 1.435;
+/// 1/√(2π).
+const FRAC_1_SQRT_TAU: f64 = 0.398_942_280_401_432_7;
 /// Lines up to this standard deviation (nm) are carried as points; broader ones are sampled as a curve.
-const BROADEST_LINE_NM: f64 = 17.0;
+const BROADEST_LINE_NM: f64 = 51.0;
+/// Points of a line are no farther apart (nm), so that even shifted by 4 they lie closer than the eye's curves bend.
+const POINTS_NM: f64 = 5.0;
 
 impl Source {
     /// `factor` times the spectrum.
@@ -106,7 +112,7 @@ impl Source {
             Spectrum::Rgb(rgb) => self.smooth.push((factor, Smooth::Filtered(*rgb))),
             Spectrum::Illuminant(Illuminant::D65) => self.smooth.push((factor, Smooth::Daylight)),
             Spectrum::Illuminant(Illuminant::A) => {
-                self.smooth.push((factor, Smooth::BlackBody(2848.0 * 1.438_776_877 / 1.435)));
+                self.smooth.push((factor, Smooth::BlackBody(ILLUMINANT_A_K)));
             }
             Spectrum::Illuminant(Illuminant::E) => self.smooth.push((factor, Smooth::Constant)),
             Spectrum::Sum(parts) => parts.iter().for_each(|part| self.add(part, factor)),
@@ -114,8 +120,8 @@ impl Source {
         }
     }
 
-    /// A narrow line becomes points one standard deviation apart: for a Gaussian the sum over them equals the
-    /// integral against any curve that is smooth on that scale (to 5e-9 for a constant).
+    /// A line becomes points at most one standard deviation apart: for a Gaussian the sum over them equals the
+    /// integral against any curve that is smooth on that scale (to 1e-6 for a constant: what lies beyond 5 of them).
     fn add_line(&mut self, centre_nm: f64, width_nm: f64, power: f64) {
         let sigma_nm = width_nm / 2.354_820_045_030_949_3; // FWHM = 2√(2 ln 2) σ
         if sigma_nm == 0.0 {
@@ -124,11 +130,12 @@ impl Source {
         if sigma_nm > BROADEST_LINE_NM {
             return self.smooth.push((power, Smooth::Gauss { centre_nm, sigma_nm }));
         }
-        for step in -5..=5 {
-            let step = f64::from(step);
-            let weight = libm::exp(-0.5 * step * step) * 0.398_942_280_401_432_7; // 1/√(2π)
-            let wavelength_nm = centre_nm + step * sigma_nm;
+        let per_sigma = (sigma_nm / POINTS_NM).max(1.0).ceil() as i32;
+        for step in -5 * per_sigma..=5 * per_sigma {
+            let sigmas = f64::from(step) / f64::from(per_sigma);
+            let wavelength_nm = centre_nm + sigmas * sigma_nm;
             if wavelength_nm > 0.0 {
+                let weight = libm::exp(-0.5 * sigmas * sigmas) * FRAC_1_SQRT_TAU / f64::from(per_sigma);
                 self.lines.push(Line { wavelength_nm, power: power * weight });
             }
         }
@@ -192,13 +199,16 @@ impl Smooth {
             }
             Self::Gauss { centre_nm, sigma_nm } => add(&|nm| {
                 let z = (nm - centre_nm) / sigma_nm;
-                libm::exp(-0.5 * z * z) * 0.398_942_280_401_432_7 / sigma_nm
+                libm::exp(-0.5 * z * z) * FRAC_1_SQRT_TAU / sigma_nm
             }),
         }
     }
 }
 
 impl Spectrum {
+    /// The illuminant D65.
+    pub const DAYLIGHT: Self = Self::Illuminant(Illuminant::D65);
+
     /// The integral over all wavelengths (nm), where it is finite.
     pub fn total(&self) -> Option<f64> {
         match self {
@@ -206,11 +216,8 @@ impl Spectrum {
             Self::BlackBody(kelvin) => Some(5.670_374_419e-8 * kelvin.powi(4) / std::f64::consts::PI),
             Self::Line { .. } => Some(1.0),
             Self::Constant(_) | Self::Illuminant(Illuminant::E) => None,
-            Self::Table(table) => {
-                let (first, last) = table.range();
-                Some(integral(|nm| table.at(nm), first, last))
-            }
-            Self::Illuminant(Illuminant::A) => Self::BlackBody(2848.0 * 1.438_776_877 / 1.435).total(),
+            Self::Table(table) => Some(table.integral()),
+            Self::Illuminant(Illuminant::A) => Self::BlackBody(ILLUMINANT_A_K).total(),
             Self::Rgb(_) | Self::Illuminant(Illuminant::D65) => {
                 // 20 nm to 100 µm, in the logarithm of the wavelength.
                 let source = Source::new(self, 1.0);

@@ -29,6 +29,18 @@ impl Table {
         self.value[after - 1] + part * (self.value[after] - self.value[after - 1])
     }
 
+    /// The same wavelengths with all values multiplied.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.value.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
+    /// The integral over the table's wavelengths (nm), exact for what is linear between the rows.
+    pub fn integral(&self) -> f64 {
+        let piece = |i: usize| 0.5 * (self.value[i] + self.value[i - 1]) * (self.nm[i] - self.nm[i - 1]);
+        (1..self.nm.len()).map(piece).sum()
+    }
+
     /// First and last wavelength, nm.
     pub fn range(&self) -> (f64, f64) {
         (self.nm[0], self.nm[self.nm.len() - 1])

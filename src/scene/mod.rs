@@ -1,5 +1,11 @@
 //! The scene as meant: bodies in their rest frames, surfaces, lamps, the observer. Immutable once built.
 
+mod compose;
+mod light;
+mod models;
+
+pub use compose::{UNLIT_LUMINANCE, compose};
+
 use crate::lamp::Lamp;
 use crate::observer::Observer;
 use crate::spacetime::{Event, Poincare, Velocity};

@@ -1,0 +1,62 @@
+//! `terrell check`: every fault, then what the scene needs.
+
+use crate::error::Error;
+use crate::manifest::Manifest;
+use crate::plan::Plan;
+use crate::render;
+use crate::scene::Scene;
+use crate::surface::Scatter;
+use std::path::Path;
+
+/// Checks a manifest and prints what it needs.
+pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error> {
+    let (manifest, scene, plan) = super::prepare(path, changes)?;
+    println!("{}: no faults", path.display());
+    for (what, how_much) in needs(&manifest, &scene, &plan) {
+        println!("  {what:<14} {how_much}");
+    }
+    Ok(())
+}
+
+fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
+    let placed = || scene.world.frames.iter().flat_map(|rest| &rest.placed);
+    let shown: usize = placed().map(|placed| placed.triangles.mesh.triangles.len()).sum();
+    let mut meshes: Vec<*const _> =
+        placed().map(|placed| std::sync::Arc::as_ptr(&placed.triangles)).collect();
+    meshes.sort_unstable();
+    meshes.dedup();
+    let mirrors = scene.surfaces.iter().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
+    let glows = scene.surfaces.iter().filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
+    let lines = scene.lamps.iter().map(|lamp| &lamp.source).chain(glows).chain(&scene.ambient);
+    let lines = lines.into_iter().any(|source| !source.lines().is_empty());
+    let sampling = &plan.sampling;
+    let mut needs = vec![
+        ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),
+        ("triangles", format!("{shown} shown, {} meshes with a tree each", meshes.len())),
+        ("lamps", format!("{}, each with shadows", scene.lamps.len())),
+        ("mirrors", if mirrors { format!("followed {} deep", scene.depth) } else { "none".to_owned() }),
+        (
+            "light",
+            format!(
+                "{} wavelengths{}",
+                sampling.wavelengths,
+                if lines { ", and spectral lines carried exactly" } else { "" }
+            ),
+        ),
+        (
+            "pictures",
+            format!(
+                "{} of {} x {}, {} samples each pixel",
+                plan.exposures.len(),
+                sampling.width,
+                sampling.height,
+                sampling.samples
+            ),
+        ),
+        ("files", format!("{}", plan.folder.display())),
+    ];
+    if let Some(film) = render::film_path(plan, plan.exposures.len()) {
+        needs.push(("film", format!("{}", film.display())));
+    }
+    needs
+}

@@ -1,0 +1,199 @@
+//! The command line: flags as typed become what is meant. Only this folder and `main` print.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is the program's voice")]
+
+mod check;
+mod inspect;
+mod progress;
+
+use crate::diagnostic;
+use crate::error::{Error, Fault, Place, Report};
+use crate::manifest::{self, Manifest};
+use crate::plan::Plan;
+use crate::render;
+use crate::scene::{Scene, compose};
+use clap::{Args, Parser, Subcommand};
+use std::io::IsTerminal;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Renders what a camera would really see when things move near the speed of light.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  terrell render manifests/flyby.yaml
+  terrell render manifests/flyby.yaml --exposure 40 --size 1920x1080 --samples 16
+  terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
+  terrell check manifests/flyby.yaml
+  terrell inspect assets/monkey.glb";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render the pictures and the film of manifests
+    Render(RenderArgs),
+    /// Find every fault of a manifest, and say what its scene needs
+    Check(CheckArgs),
+    /// Show what is in a model file: nodes, materials, lights, cameras
+    Inspect(inspect::InspectArgs),
+}
+
+#[derive(Debug, Args)]
+struct RenderArgs {
+    /// The manifests (YAML)
+    #[arg(required = true, value_name = "MANIFEST")]
+    manifests: Vec<PathBuf>,
+    /// Only this exposure, by its number (the first is 0)
+    #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
+    exposure: Option<usize>,
+    /// Only the exposures from this number
+    #[arg(long, value_name = "N")]
+    from: Option<usize>,
+    /// Only the exposures up to this number
+    #[arg(long, value_name = "N")]
+    to: Option<usize>,
+    /// Width and height in pixels, as in 640x360
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
+    /// Samples per pixel
+    #[arg(long, value_name = "N")]
+    samples: Option<String>,
+    /// The folder for the pictures, instead of the manifest's
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// Leave the film out, only pictures
+    #[arg(long)]
+    no_video: bool,
+    /// Threads to use (all unless said); the pictures are the same
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    #[command(flatten)]
+    changes: Changes,
+}
+
+#[derive(Debug, Args)]
+struct CheckArgs {
+    /// The manifest (YAML)
+    manifest: PathBuf,
+    #[command(flatten)]
+    changes: Changes,
+}
+
+#[derive(Debug, Args)]
+struct Changes {
+    /// Change a key of the manifest, as in picture.samples=16 or bodies.0.velocity="0.5 0 0 c"
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl Changes {
+    fn pairs(&self) -> Result<Vec<(String, String)>, Error> {
+        let pair = |text: &String| match text.split_once('=') {
+            Some((key, value)) => Ok((key.trim().to_owned(), value.trim().to_owned())),
+            None => Err(Error::fault(
+                Place::Command,
+                format!("`--set {text}` has no `=`"),
+                "--set picture.samples=16",
+            )),
+        };
+        self.set.iter().map(pair).collect()
+    }
+}
+
+/// Runs the program.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match cli.command {
+        Command::Render(args) => render_all(&args),
+        Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
+        Command::Inspect(args) => inspect::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            complain(&error);
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn complain(error: &Error) {
+    match error {
+        Error::Input(faults) => eprint!("{}", diagnostic::render(faults, false, colored())),
+        error => eprintln!("error: {error}"),
+    }
+}
+
+fn warn(warnings: &[Fault]) {
+    eprint!("{}", diagnostic::render(warnings, true, colored()));
+}
+
+fn colored() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// What a manifest asks for and means, with warnings printed; or all faults.
+fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene, Plan), Error> {
+    let mut report = Report::default();
+    let manifest = manifest::load_with(path, changes, &mut report);
+    let scene = manifest.as_ref().and_then(|manifest| compose(manifest, path, &mut report));
+    let plan = manifest.as_ref().zip(scene.as_ref());
+    let plan = plan.map(|(manifest, scene)| Plan::of(manifest, scene, path, &mut report));
+    warn(&report.warnings);
+    let all = manifest.zip(scene).zip(plan).map(|((manifest, scene), plan)| (manifest, scene, plan));
+    report.finish(all)
+}
+
+fn render_all(args: &RenderArgs) -> Result<(), Error> {
+    let mut changes = args.changes.pairs()?;
+    if let Some(size) = &args.size {
+        changes.push(("picture.size".to_owned(), size.replace(['x', 'X', '×'], " ")));
+    }
+    if let Some(samples) = &args.samples {
+        changes.push(("picture.samples".to_owned(), samples.clone()));
+    }
+    if args.no_video {
+        changes.push(("film.video".to_owned(), "off".to_owned()));
+    }
+    if args.out.is_some() && args.manifests.len() > 1 {
+        let hint = "render them one by one, or leave --out away: each has an output of its own";
+        return Err(Error::fault(Place::Command, "several manifests cannot go to one folder", hint));
+    }
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(threads) = args.threads {
+        pool = pool.num_threads(threads);
+    }
+    let pool = pool.build().map_err(|error| {
+        Error::fault(Place::Command, format!("the threads could not be started: {error}"), "--threads 2")
+    })?;
+    args.manifests.iter().try_for_each(|path| pool.install(|| render_one(path, &changes, args)))
+}
+
+fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
+    let (_, scene, mut plan) = prepare(path, changes)?;
+    if let Some(folder) = &args.out {
+        plan.folder.clone_from(folder);
+    }
+    let chosen = chosen(args, plan.exposures.len())?;
+    let mut progress = progress::Progress::start(&plan, chosen.len());
+    render::render(&scene, &plan, chosen, |step| progress.show(&step))
+}
+
+/// The exposures that are asked for, of `count`.
+fn chosen(args: &RenderArgs, count: usize) -> Result<Range<usize>, Error> {
+    let (from, to) = match args.exposure {
+        Some(only) => (only, only),
+        None => (args.from.unwrap_or(0), args.to.unwrap_or(count - 1)),
+    };
+    if from > to || to >= count {
+        let asked = if from == to { format!("exposure {from}") } else { format!("exposures {from} to {to}") };
+        let hint = format!("they are numbered from 0 to {}", count - 1);
+        return Err(Error::fault(Place::Command, format!("there is no {asked}"), hint));
+    }
+    Ok(from..to + 1)
+}

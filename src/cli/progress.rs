@@ -1,0 +1,73 @@
+//! How far a film is: a bar with the time left on a terminal, plain lines elsewhere.
+
+use crate::plan::Plan;
+use crate::render::Step;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Between two plain lines.
+const BETWEEN_LINES: Duration = Duration::from_secs(5);
+
+/// The state of a film's rendering, shown as it goes.
+pub(super) struct Progress {
+    gauge: Option<ProgressBar>,
+    started: Instant,
+    last_line: Option<Instant>,
+    done: usize,
+    pictures: usize,
+}
+
+impl Progress {
+    /// For so many pictures of a film.
+    pub(super) fn start(plan: &Plan, pictures: usize) -> Self {
+        let gauge = std::io::stderr().is_terminal().then(|| {
+            let style =
+                ProgressStyle::with_template("{wide_bar} {pos}/{len}  {elapsed} gone, {eta} left  {msg}");
+            ProgressBar::new(pictures as u64)
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+                .with_message(plan.folder.display().to_string())
+        });
+        if let Some(gauge) = &gauge {
+            gauge.enable_steady_tick(Duration::from_millis(250));
+        }
+        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures }
+    }
+
+    /// Shows a step.
+    pub(super) fn show(&mut self, step: &Step) {
+        let path = match step {
+            Step::Metered(_) => return,
+            Step::Film(path) => return self.say(&format!("film {}", path.display())),
+            Step::Picture(path) => path,
+        };
+        self.done += 1;
+        let last = self.done == self.pictures;
+        if let Some(gauge) = &self.gauge {
+            gauge.inc(1);
+            if last {
+                gauge.finish_and_clear();
+            }
+        }
+        if last {
+            let seconds = self.started.elapsed().as_secs_f64();
+            let what = if self.pictures == 1 { "picture" } else { "pictures" };
+            let folder = path.parent().unwrap_or(path).display();
+            return self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
+        }
+        let due = self.last_line.is_none_or(|line| line.elapsed() >= BETWEEN_LINES);
+        if self.gauge.is_none() && due {
+            self.last_line = Some(Instant::now());
+            let each = self.started.elapsed().as_secs_f64() / self.done as f64;
+            let left = each * (self.pictures - self.done) as f64;
+            self.say(&format!("{}/{} {}  {left:.0} s left", self.done, self.pictures, path.display()));
+        }
+    }
+
+    fn say(&self, line: &str) {
+        match &self.gauge {
+            Some(gauge) => gauge.suspend(|| eprintln!("{line}")),
+            None => eprintln!("{line}"),
+        }
+    }
+}

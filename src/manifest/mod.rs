@@ -1,0 +1,173 @@
+//! The manifest: what is in the world, who looks, and what is made of it, as YAML text.
+//!
+//! [`parse`] turns the text into a [`Manifest`] in house units (metres, c = 1, radians, kelvin, nanometres)
+//! with names resolved. It reports every fault it finds, each with its line and column and what to type
+//! instead; unknown keys are faults. [`shape`] describes all keys.
+//!
+//! ~~~
+//! use terrell::error::Report;
+//! let mut report = Report::default();
+//! let text = "{ observer: { velocity: 0.8 0 0 c }, output: out }";
+//! let manifest = terrell::manifest::parse("m.yaml".as_ref(), text, &mut report).unwrap();
+//! assert!((manifest.observer.placement.velocity.gamma() - 5.0 / 3.0).abs() < 1e-15);
+//! ~~~
+
+mod body;
+mod light;
+mod material;
+mod motion;
+mod names;
+mod node;
+mod observer;
+mod overrides;
+mod picture;
+mod plain;
+mod quantity;
+mod reader;
+mod record;
+mod reference;
+mod spectrum;
+mod table;
+mod units;
+mod yaml;
+
+pub use body::{AssetRef, Body};
+pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
+pub use material::Material;
+pub(crate) use motion::GREATEST_GAMMA;
+pub use motion::Placement;
+pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
+pub use picture::{Clock, Effects, Exposures, Film, Filter, Output, Picture, White};
+pub use reader::LIGHT_SPEED;
+pub use record::{Field, Presence, RecordShape, Shape};
+pub use reference::reference;
+pub use spectrum::{Illuminant, Line, Spectrum};
+pub use table::Rows;
+
+use crate::error::{Place, Report};
+use body::{Assets, Bodies};
+use light::GlowKind;
+use material::Materials;
+use motion::LightSpeed;
+use node::Source;
+use observer::ObserverKind;
+use picture::{ExposuresKind, OutputKind};
+use reader::Reader;
+use record::{Kind, List, record};
+use spectrum::Spectra;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A value and where it is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Spanned<T> {
+    /// What is written.
+    pub value: T,
+    /// Where.
+    pub place: Place,
+}
+
+record! {
+    /// A manifest.
+    pub Manifest, "a manifest" {
+        /// The speed of light in metres per second: what the seconds of this manifest are.
+        light_speed: f64 = LightSpeed, default(LIGHT_SPEED), "1 m/s";
+        /// Spectra by name.
+        spectra: BTreeMap<String, Arc<Spectrum>> = Spectra, default(BTreeMap::new()), "{ sodium: { line: 589 nm } }";
+        /// Materials by name.
+        materials: BTreeMap<String, Arc<Material>> = Materials, default(BTreeMap::new()), "{ white: { diffuse: 0.8 } }";
+        /// Model files by name.
+        assets: BTreeMap<String, AssetRef> = Assets, default(BTreeMap::new()), "{ monkey: models/monkey.glb }";
+        /// What is there to be seen.
+        bodies: Vec<Body> = Bodies, default(Vec::new()), "[{ asset: monkey }]";
+        /// What shines, beside the lights in the assets.
+        lights: Vec<Light> = List<Light>, default(Vec::new()), "[{ lamp: { intensity: 300 cd } }]";
+        /// Light that falls on each body from all sides alike, in its rest frame.
+        ambient: Option<Glow> = GlowKind, optional, "{ luminance: 20 cd/m2 }";
+        /// Who looks.
+        observer: Observer = ObserverKind, required, "{ at: 0 1.2 5 m }";
+        /// When pictures are taken: one, at 0 s, unless said.
+        exposures: Exposures = ExposuresKind, empty, "{ from: -4 s, to: 9 s, count: 96 }";
+        /// What the pictures are like.
+        picture: Picture = Picture, empty, "{ size: 1280 720 }";
+        /// The film made of them: made if there is more than one.
+        film: Option<Film> = Film, optional, "{ rate: 24 }";
+        /// Where everything goes that is written.
+        output: Output = OutputKind, required, "../out/flyby";
+        /// What is shown of relativity.
+        effects: Effects = Effects, empty, "{ searchlight: off }";
+    }
+}
+
+/// What a manifest looks like: all keys, from the outermost.
+pub fn shape() -> Shape {
+    Manifest::shape()
+}
+
+/// Reads the manifest in a file; see [`parse`].
+pub fn load(path: &Path, report: &mut Report) -> Option<Manifest> {
+    load_with(path, &[], report)
+}
+
+/// Reads the manifest in a file, some of its values given on the command line; see [`parse_with`].
+pub fn load_with(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Manifest> {
+    match table::read_text(path) {
+        Ok(text) => parse_with(path, &text, overrides, report),
+        Err(why) => {
+            report.fault(Place::file(path), why, "name a manifest, a YAML text file");
+            None
+        }
+    }
+}
+
+/// Reads a manifest from its text. `path` is where paths in it are relative to, and how places are named.
+///
+/// None if there is any fault; all of those found are in the report, in the order of the text.
+pub fn parse(path: &Path, text: &str, report: &mut Report) -> Option<Manifest> {
+    parse_with(path, text, &[], report)
+}
+
+/// Reads a manifest of which some values are given on the command line: pairs of a path of keys and a YAML
+/// text, such as `bodies.0.velocity` and `0 0 0.5 c`.
+pub fn parse_with(
+    path: &Path,
+    text: &str,
+    overrides: &[(String, String)],
+    report: &mut Report,
+) -> Option<Manifest> {
+    let mut found = Report::default();
+    let source = Source::File { path: path.to_owned(), text: text.into() };
+    let manifest = yaml::parse(&source, text, &mut found)
+        .and_then(|root| overrides::apply(root, overrides, &mut found))
+        .and_then(|root| read(path, &root, &mut found));
+    let sound = found.faults.is_empty();
+    found.faults.sort_by_key(|fault| place_order(path, &fault.place));
+    report.faults.append(&mut found.faults);
+    report.warnings.append(&mut found.warnings);
+    manifest.filter(|_| sound)
+}
+
+fn read(path: &Path, root: &node::Node, report: &mut Report) -> Option<Manifest> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut reader = Reader::new(folder, report);
+    let mut manifest = <Manifest as Kind>::read(root, &mut reader).ok()?;
+    let used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
+    for (name, asset) in &manifest.assets {
+        if !used.contains(name) {
+            report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
+        }
+    }
+    if manifest.film.is_none() && manifest.exposures.count > 1 {
+        manifest.film = Some(Film::usual());
+    }
+    Some(manifest)
+}
+
+/// Faults of the manifest in the order of its text, then all others.
+fn place_order(path: &Path, place: &Place) -> usize {
+    match place {
+        Place::Text { path: of, span, .. } if of == path => span.start,
+        _ => usize::MAX,
+    }
+}

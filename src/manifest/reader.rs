@@ -1,0 +1,174 @@
+//! What is at hand while a manifest is read: the report, the key being read, and what names stand for.
+
+use super::material::Material;
+use super::names::Names;
+use super::node::Node;
+use super::spectrum::Spectrum;
+use crate::error::{Place, Report, nearest_name};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Keys within one another, names followed included; deeper means a mistake or an attack.
+const DEEPEST: usize = 96;
+
+/// Faults that are kept; nobody reads more.
+pub(crate) const MOST_FAULTS: usize = 1000;
+/// Characters of a message that are kept.
+const LONGEST_MESSAGE: usize = 400;
+
+/// The speed of light in vacuum, m/s (exact: SI brochure, 9th edition, §2.2).
+pub const LIGHT_SPEED: f64 = 299_792_458.0;
+
+/// Something is wrong with a value and the report says what.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reported;
+
+/// A value, or none because of faults that are in the report.
+pub(crate) type Read<T> = Result<T, Reported>;
+
+/// The state of reading.
+pub(crate) struct Reader<'a> {
+    pub(crate) report: &'a mut Report,
+    /// The folder of the manifest: paths in it are relative to that.
+    pub(crate) folder: &'a Path,
+    /// Metres that light travels in a second of this manifest.
+    pub(crate) light_speed: f64,
+    /// The names under `assets`.
+    pub(crate) assets: BTreeSet<String>,
+    /// The names of the bodies, each under its own name or that of its asset.
+    pub(crate) bodies: Vec<String>,
+    /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
+    pub(crate) ring: bool,
+    pub(crate) spectra: Names<Spectrum>,
+    pub(crate) materials: Names<Material>,
+    keys: Vec<String>,
+    /// What stands before and after the part of a text that is being read.
+    around: (String, String),
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(folder: &'a Path, report: &'a mut Report) -> Self {
+        Self {
+            report,
+            folder,
+            light_speed: LIGHT_SPEED,
+            assets: BTreeSet::new(),
+            bodies: Vec::new(),
+            ring: false,
+            spectra: Names::default(),
+            materials: Names::default(),
+            keys: Vec::new(),
+            around: (String::new(), String::new()),
+        }
+    }
+
+    /// Reports a fault. On the command line the path of keys says where it is.
+    pub(crate) fn fault(
+        &mut self,
+        place: &Place,
+        what: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Reported {
+        if self.report.faults.len() >= MOST_FAULTS {
+            return Reported;
+        }
+        let what = what.into();
+        let what = match place {
+            Place::Command if !self.keys.is_empty() => format!("--set {}: {what}", self.keys.join(".")),
+            _ => what,
+        };
+        self.report.fault(place.clone(), shortened(what), shortened(hint.into()));
+        Reported
+    }
+
+    /// Whether names that were probably meant are still looked for: not after very many faults.
+    pub(crate) fn suggests(&self) -> bool {
+        self.report.faults.len() < MOST_FAULTS / 20
+    }
+
+    /// Reads the value of a key, or an item of a list.
+    pub(crate) fn under<T>(
+        &mut self,
+        key: &str,
+        place: &Place,
+        read: impl FnOnce(&mut Self) -> Read<T>,
+    ) -> Read<T> {
+        if self.keys.len() >= DEEPEST {
+            return Err(self.fault(place, format!("more than {DEEPEST} keys within one another"), ""));
+        }
+        self.keys.push(key.to_owned());
+        let value = read(self);
+        self.keys.pop();
+        value
+    }
+
+    /// The key being read: the innermost that is no index of a list.
+    pub(crate) fn key(&self) -> Option<&str> {
+        self.keys.last().map(String::as_str).filter(|key| !key.starts_with(|c: char| c.is_ascii_digit()))
+    }
+
+    /// `text` as the value of the key being read: what to type.
+    pub(crate) fn typed(&self, text: &str) -> String {
+        let (before, after) = &self.around;
+        match self.key() {
+            Some(key) => format!("{key}: {before}{text}{after}"),
+            None => format!("{before}{text}{after}"),
+        }
+    }
+
+    /// Reads a part of a text.
+    pub(crate) fn between<T>(&mut self, before: &str, after: &str, read: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.around, (before.to_owned(), after.to_owned()));
+        let value = read(self);
+        self.around = outer;
+        value
+    }
+
+    /// Faults a value that is not there (`key:`).
+    pub(crate) fn something(&mut self, node: &Node) -> Read<()> {
+        if !node.is_nothing() {
+            return Ok(());
+        }
+        let key = self.key().unwrap_or("this item").to_owned();
+        let hint = if after(&node.place).trim_start_matches(':').trim_start().starts_with('#') {
+            format!("`#` begins a comment: put quotes around the text, as in `{key}: \"#ff8800\"`")
+        } else {
+            "write a value, or leave the key out".to_owned()
+        };
+        Err(self.fault(&node.place, format!("`{key}` has no value"), hint))
+    }
+}
+
+/// What to type instead of a name that stands for nothing: the nearest known one, or where names are given.
+pub(crate) fn instead<'n>(name: &str, known: impl Iterator<Item = &'n str> + Clone, under: &str) -> String {
+    if let Some(nearest) = nearest_name(name, known.clone().take(1000)) {
+        return format!("did you mean `{nearest}`?");
+    }
+    let count = known.clone().count();
+    let mut first = known.take(12).collect::<Vec<_>>().join(", ");
+    if count > 12 {
+        first.push_str(&format!(" and {} more", count - 12));
+    }
+    match count {
+        0 => format!("there are none yet: name it under `{under}:`"),
+        _ => format!("under `{under}:` there are {first}"),
+    }
+}
+
+/// A message cut to a length that can be read.
+fn shortened(message: String) -> String {
+    match message.char_indices().nth(LONGEST_MESSAGE) {
+        Some((end, _)) => format!("{}…", &message[..end]),
+        None => message,
+    }
+}
+
+/// The rest of the line after a place.
+fn after(place: &Place) -> &str {
+    match place {
+        Place::Text { text, span, .. } => {
+            text.get(span.end..).unwrap_or_default().lines().next().unwrap_or_default()
+        }
+        _ => "",
+    }
+}

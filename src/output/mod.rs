@@ -1,0 +1,102 @@
+//! Finished pictures to files: PNG to look at, `OpenEXR` to compute with, MP4 to play.
+//!
+//! Everything here takes plain numbers and knows nothing of scenes. A file appears under its name whole or
+//! not at all, so a render that was stopped can be resumed by looking at which files are there; and the same
+//! numbers give the same bytes.
+
+mod exr;
+pub mod movie;
+#[cfg(feature = "video")]
+mod mp4;
+mod png;
+#[cfg(feature = "video")]
+mod reel;
+#[cfg(feature = "video")]
+mod yuv;
+
+pub use self::exr::{Layers, write_exr};
+pub use self::movie::Movie;
+pub use self::png::{Picture8, write_png};
+
+use crate::error::Error;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Writes a file so that it is there whole or not at all.
+///
+/// `write` fills a file of a temporary name in the same folder (which is made if it is missing); that is
+/// flushed, handed to the disk and given its name last. If anything fails, the temporary file is removed and
+/// a file that stood under the name before is left as it was.
+pub fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), Error> {
+    let (temporary, file) = Temporary::beside(path)?;
+    fill(file, write)
+        .and_then(|()| fs::rename(&temporary.path, path))
+        .map_err(|source| Error::machine(path, "writing", source))?;
+    temporary.keep();
+    Ok(())
+}
+
+fn fill(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::with_capacity(1 << 16, file);
+    write(&mut writer)?;
+    writer.flush()?;
+    writer.get_ref().sync_all()
+}
+
+/// The file name of one exposure of a film of `count`, counted from zero: `0012.png`. All names of a film
+/// have equally many digits, at least four, so that they sort and `%04d` finds them.
+pub fn exposure_name(index: usize, count: usize) -> String {
+    let digits = count.max(index).to_string().len().max(4);
+    format!("{index:0digits$}.png")
+}
+
+/// A file of a passing name, removed when dropped.
+#[derive(Debug)]
+struct Temporary {
+    path: PathBuf,
+}
+
+impl Temporary {
+    /// A new, empty file in the folder of `path`, open for reading and writing.
+    fn beside(path: &Path) -> Result<(Self, File), Error> {
+        static SERIAL: AtomicU32 = AtomicU32::new(0);
+        let name = path.file_name().ok_or_else(|| {
+            Error::machine(path, "writing", io::Error::new(io::ErrorKind::InvalidInput, "this names no file"))
+        })?;
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder)
+                .map_err(|source| Error::machine(folder, "creating the folder", source))?;
+        }
+        let mut hidden = std::ffi::OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}-{}.part", std::process::id(), SERIAL.fetch_add(1, Ordering::Relaxed)));
+        let hidden = path.with_file_name(hidden);
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(true)
+            .open(&hidden)
+            .map_err(|source| Error::machine(path, "writing", source))?;
+        Ok((Self { path: hidden }, file))
+    }
+
+    /// The file has been given its final name: nothing is left to remove.
+    fn keep(mut self) {
+        self.path = PathBuf::new();
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if !self.path.as_os_str().is_empty() {
+            // Nothing can be done about a failure here, and the error that led here is the one to tell.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What is to be rendered: the exposures of a film, and where they go.
+
+use crate::error::Report;
+use crate::exposure::Sampling;
+use crate::film::Reconstruction;
+use crate::manifest::{self, Amount, Clock, Filter, Manifest};
+use crate::output::movie;
+use crate::scene::Scene;
+use crate::spacetime::Course;
+use crate::spectrum::{Source, Spectrum};
+use std::path::{Path, PathBuf};
+
+/// One picture of a film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exposure {
+    /// Its number, from zero.
+    pub index: usize,
+    /// The observer's proper time, metres (a ring of observers: part of the film).
+    pub tau: f64,
+}
+
+/// Which luminance becomes white.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum White {
+    /// This one, cd/m².
+    Fixed(f64),
+    /// From the whole film's brightness, this many times as bright (2 to the power of the stops).
+    Auto {
+        /// Multiplies the brightness of the pictures.
+        gain: f64,
+    },
+}
+
+/// What is to be rendered, and where it goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// All exposures of the film, in order.
+    pub exposures: Vec<Exposure>,
+    /// How finely.
+    pub sampling: Sampling,
+    /// How bright.
+    pub white: White,
+    /// Pictures per second of the film; none if no film is wanted.
+    pub film_rate: Option<f64>,
+    /// Whether OpenEXR files are wanted.
+    pub exr: bool,
+    /// The folder for all files.
+    pub folder: PathBuf,
+    /// The film's file in it.
+    pub film_file: String,
+    /// Seconds in a metre of light travel: 1/c of this manifest.
+    pub seconds_per_metre: f64,
+    /// Written into every picture: what it was made from.
+    pub text: Vec<(&'static str, String)>,
+}
+
+impl Plan {
+    /// What a manifest asks for.
+    ///
+    /// Faults: a film that cannot be written, and an observer too fast to be followed.
+    pub fn of(manifest: &Manifest, scene: &Scene, path: &Path, report: &mut Report) -> Self {
+        let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
+        let picture = &manifest.picture;
+        let film = manifest.film.as_ref().filter(|film| film.video);
+        let file = film.and_then(|film| film.file.clone()).unwrap_or_else(|| format!("{stem}.mp4"));
+        let exposures = exposures(&manifest.exposures, scene);
+        let film_rate = film.map(|film| film.rate).filter(|_| film_fits(manifest, exposures.len(), report));
+        check_speeds(manifest, scene, &exposures, report);
+        let version = concat!("terrell ", env!("CARGO_PKG_VERSION"));
+        Self {
+            exposures,
+            sampling: Sampling {
+                width: picture.size.0,
+                height: picture.size.1,
+                samples: picture.samples,
+                reconstruction: match picture.filter {
+                    Filter::Gaussian => Reconstruction::Gaussian,
+                    Filter::Tent => Reconstruction::Tent,
+                    Filter::Box => Reconstruction::Box,
+                },
+                wavelengths: picture.wavelengths,
+            },
+            white: white(picture),
+            film_rate,
+            exr: manifest.output.exr,
+            folder: manifest.output.folder.clone(),
+            film_file: file,
+            seconds_per_metre: 1.0 / manifest.light_speed,
+            text: vec![("Software", version.to_owned()), ("Source", stem.into_owned())],
+        }
+    }
+}
+
+/// Whether a film is to be made of so many exposures; a fault where it cannot be.
+fn film_fits(manifest: &Manifest, exposures: usize, report: &mut Report) -> bool {
+    if exposures < 2 {
+        return false;
+    }
+    let place = &manifest.picture.place;
+    if !movie::AVAILABLE {
+        let hint = "join the pictures with another program, such as ffmpeg";
+        report.warn(place.clone(), "this build writes no films, only their pictures", hint);
+        return false;
+    }
+    let (width, height) = manifest.picture.size;
+    let (long, short) = (width.max(height), width.min(height));
+    let fits = short >= movie::SMALLEST && long <= movie::LARGEST.0 && short <= movie::LARGEST.1;
+    if !fits {
+        let what = format!("a film cannot be {width} x {height} pixels (16 x 16 to 3840 x 2160)");
+        report.fault(place.clone(), what, "choose another size, or write `film: { video: off }` for pictures alone");
+    }
+    fits
+}
+
+/// Refuses an observer who, at the first or the last exposure, is beyond what numbers can follow.
+fn check_speeds(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], report: &mut Report) {
+    let ends = exposures.first().into_iter().chain(exposures.last());
+    for exposure in ends {
+        let tetrad = scene.observer.worldline.at(exposure.tau);
+        let gamma = tetrad.velocity().t;
+        if !(gamma <= manifest::GREATEST_GAMMA && tetrad.event.t.is_finite()) {
+            let what = format!("at exposure {} the observer's Lorentz factor is {gamma:.3e}", exposure.index);
+            let hint = "up to 1e5 can be followed: take a shorter time or a smaller acceleration";
+            return report.fault(manifest.exposures.place.clone(), what, hint);
+        }
+    }
+}
+
+fn exposures(written: &manifest::Exposures, scene: &Scene) -> Vec<Exposure> {
+    let count = written.count as usize;
+    let worldline = &scene.observer.worldline;
+    let tau = |index: usize| {
+        if matches!(worldline.course(), Course::Ring { .. }) {
+            // Round and round: the last one stands just before the first.
+            return index as f64 / count as f64;
+        }
+        let part = if count > 1 { index as f64 / (count - 1) as f64 } else { 0.0 };
+        let moment = written.from + (written.to - written.from) * part;
+        match written.clock {
+            Clock::Own => moment,
+            Clock::Lab => worldline.tau_at_lab(moment).unwrap_or(moment),
+        }
+    };
+    (0..count).map(|index| Exposure { index, tau: tau(index) }).collect()
+}
+
+fn white(picture: &manifest::Picture) -> White {
+    let gain = libm::exp2(picture.stops);
+    match picture.white {
+        manifest::White::Auto => White::Auto { gain },
+        manifest::White::Luminance(Amount::Photometric(luminance)) => White::Fixed(luminance / gain),
+        // In watts: of daylight.
+        manifest::White::Luminance(Amount::Radiometric(radiance)) => {
+            let daylight = Source::with_total(&Spectrum::DAYLIGHT, radiance);
+            White::Fixed(daylight.map_or(radiance, |daylight| daylight.xyz().y) / gain)
+        }
+    }
+}

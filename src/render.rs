@@ -1,0 +1,155 @@
+//! The film: exposures one after another, developed alike, to files.
+
+use crate::color::RGB_FROM_XYZ;
+use crate::error::Error;
+use crate::exposure::{Sampling, expose, first_hits};
+use crate::film::{Development, Negative, meter};
+use crate::observer::View;
+use crate::output::{self, Layers, Movie, Picture8};
+use crate::plan::{Exposure, Plan, White};
+use crate::scene::Scene;
+use crate::trace::First;
+use glam::DVec3;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, sync_channel};
+
+/// What has been done.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// The brightness of the film is known: this luminance (cd/m²) becomes white.
+    Metered(f64),
+    /// A picture is on the disk.
+    Picture(PathBuf),
+    /// The film is on the disk.
+    Film(PathBuf),
+}
+
+/// A developed picture on its way to the files.
+struct Print {
+    exposure: Exposure,
+    negative: Negative,
+    firsts: Option<Vec<Option<First>>>,
+    rgb: Vec<u8>,
+}
+
+/// Renders the exposures of the plan whose indices are within `chosen` and calls `tell` after each step. The film
+/// is made when all are.
+pub fn render(
+    scene: &Scene,
+    plan: &Plan,
+    chosen: std::ops::Range<usize>,
+    tell: impl FnMut(Step) + Send,
+) -> Result<(), Error> {
+    let mut tell = tell;
+    let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
+    let development = Development { white: white(scene, plan) };
+    tell(Step::Metered(development.white));
+    let movie = film_path(plan, exposures.len()).map(|path| start(plan, &path)).transpose()?;
+
+    // Files are written and the film encoded beside the tracing of the next picture.
+    std::thread::scope(|scope| {
+        let (prints, inbox) = sync_channel(1);
+        let writer = scope.spawn(move || file_all(plan, movie, &inbox, tell));
+        for exposure in exposures {
+            if prints.send(print(scene, plan, exposure, &development)).is_err() {
+                break; // The writer has stopped and says why.
+            }
+        }
+        drop(prints);
+        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+/// Where the film goes, if there is to be one: only a whole film is made.
+pub fn film_path(plan: &Plan, exposures: usize) -> Option<PathBuf> {
+    let whole = exposures == plan.exposures.len() && exposures > 1;
+    (whole && plan.film_rate.is_some()).then(|| plan.folder.join(&plan.film_file))
+}
+
+fn start(plan: &Plan, path: &std::path::Path) -> Result<Movie, Error> {
+    Movie::create(path, plan.sampling.width, plan.sampling.height, plan.film_rate.unwrap_or(24.0))
+}
+
+fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
+    scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
+}
+
+fn print(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Development) -> Print {
+    let view = view(scene, plan, exposure);
+    let negative = expose(scene, &view, &plan.sampling);
+    let firsts = plan.exr.then(|| first_hits(scene, &view, negative.width, negative.height));
+    Print { exposure: *exposure, rgb: development.develop(&negative), negative, firsts }
+}
+
+fn file_all(
+    plan: &Plan,
+    mut movie: Option<Movie>,
+    inbox: &Receiver<Print>,
+    mut tell: impl FnMut(Step),
+) -> Result<(), Error> {
+    for print in inbox {
+        let name = output::exposure_name(print.exposure.index, plan.exposures.len());
+        let path = plan.folder.join(name);
+        if let Some(firsts) = &print.firsts {
+            write_exr(plan, &path.with_extension("exr"), &print, firsts)?;
+        }
+        let Negative { width, height, .. } = print.negative;
+        output::write_png(&path, &Picture8 { width, height, rgb: &print.rgb, text: &plan.text })?;
+        if let Some(movie) = &mut movie {
+            movie.push(&print.rgb)?;
+        }
+        tell(Step::Picture(path));
+    }
+    if let Some(movie) = movie {
+        movie.finish()?;
+        tell(Step::Film(plan.folder.join(&plan.film_file)));
+    }
+    Ok(())
+}
+
+fn write_exr(
+    plan: &Plan,
+    path: &std::path::Path,
+    print: &Print,
+    firsts: &[Option<First>],
+) -> Result<(), Error> {
+    let rgb = |xyz: &[f32; 3]| (*RGB_FROM_XYZ * DVec3::from(xyz.map(f64::from))).as_vec3().to_array();
+    let number =
+        |of: &dyn Fn(&First) -> f64| firsts.iter().map(|f| f.as_ref().map_or(0.0, of) as f32).collect();
+    let doppler: Vec<f32> = number(&|first| first.doppler.factor());
+    let emission_time: Vec<f32> = number(&|first| first.emission.t * plan.seconds_per_metre);
+    let layers = Layers {
+        width: print.negative.width as usize,
+        height: print.negative.height as usize,
+        rgb: &print.negative.xyz.iter().map(rgb).collect::<Vec<_>>(),
+        white_luminance: 1.0,
+        xyz: &print.negative.xyz,
+        doppler: &doppler,
+        emission_time: &emission_time,
+        body: &firsts.iter().map(|f| f.as_ref().map_or(-1, |first| first.body as i32)).collect::<Vec<_>>(),
+        text: &plan.text,
+    };
+    output::write_exr(path, &layers)
+}
+
+/// Columns of the small pictures by which a film is metered, and how many there are at most.
+const METER_COLUMNS: u32 = 64;
+const METER_PICTURES: usize = 48;
+
+/// The luminance that becomes white in every picture of the film, whichever of them are rendered.
+pub fn white(scene: &Scene, plan: &Plan) -> f64 {
+    let gain = match plan.white {
+        White::Fixed(white) => return white,
+        White::Auto { gain } => gain,
+    };
+    let Sampling { width, height, .. } = plan.sampling;
+    let columns = width.min(METER_COLUMNS);
+    let rows = (u64::from(height) * u64::from(columns) / u64::from(width)).max(1) as u32;
+    let small = Sampling { width: columns, height: rows, samples: 1, ..plan.sampling };
+    let every = plan.exposures.len().div_ceil(METER_PICTURES).max(1);
+    let luminances = plan.exposures.iter().step_by(every).flat_map(|exposure| {
+        let view = scene.observer.view(exposure.tau, columns, rows);
+        expose(scene, &view, &small).xyz.into_iter().map(|xyz| f64::from(xyz[1]))
+    });
+    meter(luminances).unwrap_or(1.0) / gain
+}

@@ -1,0 +1,219 @@
+//! From a manifest and its model files to the scene that they mean.
+
+use super::models::{Chosen, Model, Models};
+use super::{Placement, Scene, WorldBuilder, light};
+use crate::error::Report;
+use crate::import;
+use crate::manifest::{self, AssetRef, LookAt, Manifest};
+use crate::observer::{Aim, Observer, Unaberrated};
+use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
+use crate::spectrum::{Reflectance, Source};
+use crate::surface::{Glow, Paint, Scatter, Surface};
+use crate::trace::Effects;
+use glam::{DAffine3, DVec3};
+use std::path::Path;
+
+/// Luminance of an unlit surface of white colour, cd/m² (glTF gives it none).
+pub const UNLIT_LUMINANCE: f64 = 100.0;
+
+/// The scene that a manifest means. Reads the model files; all faults and warnings go to the report.
+pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<Scene> {
+    let models = Models::load(manifest, path, report);
+    let chosen = models.chosen(manifest, report);
+    let mut gathered = Gathered::default();
+    for (number, body) in manifest.bodies.iter().enumerate() {
+        let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) else { continue };
+        gathered.add_body(number as u32, body, model, report);
+    }
+    for light in &manifest.lights {
+        gathered.lamps.extend(light::from_manifest(light, report));
+    }
+    let ambient = manifest.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
+    let effects = effects(&manifest.effects);
+    let observer = observer(manifest, report);
+    if report.faults.is_empty() {
+        let world = gathered.world.build();
+        let depth = manifest.picture.depth;
+        Some(Scene {
+            world,
+            surfaces: gathered.surfaces,
+            lamps: gathered.lamps,
+            ambient,
+            effects,
+            depth,
+            observer,
+        })
+    } else {
+        None
+    }
+}
+
+pub(super) fn placement(written: &manifest::Placement) -> Placement {
+    Placement { origin: Event::new(written.at_time, written.at), velocity: written.velocity }
+}
+
+fn effects(written: &manifest::Effects) -> Effects {
+    Effects { aberration: written.aberration, doppler: written.doppler, searchlight: written.searchlight }
+}
+
+/// What the bodies put together.
+#[derive(Default)]
+struct Gathered {
+    world: WorldBuilder,
+    surfaces: Vec<Surface>,
+    lamps: Vec<crate::lamp::Lamp>,
+}
+
+impl Gathered {
+    fn add_body(
+        &mut self,
+        number: u32,
+        body: &manifest::Body,
+        ((reference, model), chosen): ((&AssetRef, &Model), &Chosen),
+        report: &mut Report,
+    ) {
+        let placement = placement(&body.placement);
+        let rest_from_asset =
+            DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+        let first_surface = self.surfaces.len() as u32;
+        self.surfaces.extend(surfaces(body, &model.asset, report));
+        for instance in &model.asset.instances {
+            let Some(triangles) = chosen.contains(instance.node).then(|| &model.triangles[instance.mesh])
+            else {
+                continue;
+            };
+            let rest_from_mesh = rest_from_asset * instance.asset_from_mesh;
+            self.world.add(number, placement, triangles, rest_from_mesh, first_surface);
+        }
+        let lights =
+            model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
+        self.lamps.extend(lights.map(|light| light::from_file(light, placement, rest_from_asset)));
+    }
+}
+
+/// The surfaces of a body, one for each material of its file.
+fn surfaces(body: &manifest::Body, asset: &import::Asset, report: &mut Report) -> Vec<Surface> {
+    let mut surfaces: Vec<Surface> = match &body.material {
+        Some(material) => vec![surface(material, body, report); asset.materials.len()],
+        None => asset.materials.iter().map(imported_surface).collect(),
+    };
+    for (name, material) in &body.materials {
+        let named: Vec<usize> =
+            (0..surfaces.len()).filter(|i| asset.materials[*i].name == name.value).collect();
+        if named.is_empty() {
+            let known = asset.materials.iter().map(|m| m.name.as_str()).filter(|name| !name.is_empty());
+            let hint = match crate::error::nearest_name(&name.value, known.clone()) {
+                Some(nearest) => format!("did you mean `{nearest}`?"),
+                None => format!("its materials are: {}", known.collect::<Vec<_>>().join(", ")),
+            };
+            let what = format!("`{}` has no material named `{}`", asset.path.display(), name.value);
+            report.fault(name.place.clone(), what, hint);
+        }
+        for i in named {
+            surfaces[i] = surface(material, body, report);
+        }
+    }
+    surfaces
+}
+
+fn surface(material: &manifest::Material, body: &manifest::Body, report: &mut Report) -> Surface {
+    let mut reflectance = |spectrum| match light::reflectance(spectrum) {
+        Ok(reflectance) => reflectance,
+        Err(what) => {
+            report.fault(body.place.clone(), what, "use a constant, an RGB colour or a table");
+            Reflectance::Constant(0.0)
+        }
+    };
+    match material {
+        manifest::Material::Diffuse(spectrum) => {
+            Surface { scatter: Scatter::Diffuse(reflectance(spectrum)), glow: None }
+        }
+        manifest::Material::Mirror(spectrum) => {
+            Surface { scatter: Scatter::Mirror(reflectance(spectrum)), glow: None }
+        }
+        manifest::Material::Emission(glow) => {
+            let glow = light::radiance(glow, report).map(|radiance| Glow { radiance, paint: None });
+            Surface { scatter: Scatter::Absorb, glow }
+        }
+    }
+}
+
+fn imported_surface(material: &import::Material) -> Surface {
+    let [r, g, b, _] = material.base_color;
+    let base = Paint { color: [r, g, b], texture: material.base_texture.clone(), vertex_colors: true };
+    let white = |luminance| Source::with_luminous(&crate::spectrum::Spectrum::DAYLIGHT, luminance);
+    if material.unlit {
+        let glow = white(UNLIT_LUMINANCE).map(|radiance| Glow { radiance, paint: Some(base) });
+        return Surface { scatter: Scatter::Absorb, glow };
+    }
+    let emits = material.emissive.iter().any(|channel| *channel > 0.0);
+    let emitted =
+        Paint { color: material.emissive, texture: material.emissive_texture.clone(), vertex_colors: false };
+    let glow = emits.then(|| white(1.0)).flatten().map(|radiance| Glow { radiance, paint: Some(emitted) });
+    Surface { scatter: Scatter::Painted(base), glow }
+}
+
+fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
+    let written = &manifest.observer;
+    let course = match &written.worldline {
+        manifest::Worldline::Rest => Course::Inertial,
+        manifest::Worldline::Rocket(rocket) if rocket.acceleration == DVec3::ZERO => Course::Inertial,
+        manifest::Worldline::Rocket(rocket) => Course::Rocket { acceleration: rocket.acceleration },
+        manifest::Worldline::Orbit(orbit) => Course::Orbit {
+            circle: Circle::around(orbit.centre, orbit.axis, orbit.radius, orbit.start),
+            proper_speed: orbit.speed,
+        },
+        manifest::Worldline::Ring(ring) => Course::Ring {
+            circle: Circle::around(ring.centre, ring.axis, ring.radius, ring.start),
+            turns: ring.turns,
+            instants: ring_instants(&manifest.exposures),
+        },
+    };
+    let Placement { origin, velocity } = placement(&written.placement);
+    let rotation = written.placement.rotation;
+    let aim = match &written.view {
+        manifest::View::Direction(direction) => Aim::Along(*direction),
+        manifest::View::LookAt(LookAt::Body(body)) => {
+            let target = placement(&manifest.bodies[body.value].placement);
+            Aim::At { rest_from_lab: target.rest_from_lab(), place: DVec3::ZERO }
+        }
+        manifest::View::LookAt(LookAt::Point(place)) => {
+            let lab = Placement { origin: Event::ORIGIN, velocity: Velocity::REST };
+            Aim::At { rest_from_lab: lab.rest_from_lab(), place: *place }
+        }
+    };
+    Observer {
+        worldline: Worldline::new(origin, velocity, rotation, course),
+        aim,
+        up: written.up,
+        field_of_view: written.field_of_view,
+        unaberrated: unaberrated(manifest, report),
+    }
+}
+
+/// The instants at the two ends of a ring's film. Its last exposure, at `to`, stands one step before the ring closes.
+fn ring_instants(exposures: &manifest::Exposures) -> (f64, f64) {
+    let count = f64::from(exposures.count);
+    let span = (exposures.to - exposures.from) * count / (count - 1.0).max(1.0);
+    (exposures.from, exposures.from + span)
+}
+
+/// The rest frame of all bodies, when aberration is switched off; a fault if they have none in common.
+fn unaberrated(manifest: &Manifest, report: &mut Report) -> Option<Unaberrated> {
+    if manifest.effects.aberration {
+        return None;
+    }
+    let mut bodies = manifest.bodies.iter().map(|body| body.placement.velocity);
+    let velocity = bodies.next().unwrap_or(Velocity::REST);
+    if bodies.any(|other| other != velocity) {
+        report.fault(
+            manifest.effects.place.clone(),
+            "aberration cannot be switched off where bodies move relative to one another",
+            "remove `aberration: off`, or give all bodies the same velocity",
+        );
+    }
+    Some(Unaberrated {
+        rest_from_lab: Boost::to_moving(velocity),
+        rotation: manifest.observer.placement.rotation,
+    })
+}

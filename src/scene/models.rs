@@ -1,0 +1,125 @@
+//! The model files of a manifest, each read once, with a tree for each mesh.
+
+use crate::error::{Error, Report, nearest_name};
+use crate::import::{self, Asset};
+use crate::manifest::{AssetRef, Body, Manifest};
+use crate::triangles::Triangles;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A model file with the trees of its meshes.
+pub(super) struct Model {
+    pub(super) asset: Asset,
+    pub(super) triangles: Vec<Arc<Triangles>>,
+}
+
+/// All model files, by path.
+pub(super) struct Models(BTreeMap<PathBuf, Model>);
+
+/// The nodes of a file that are wanted.
+pub(super) enum Chosen {
+    All,
+    These(Vec<bool>),
+}
+
+impl Chosen {
+    pub(super) fn contains(&self, node: usize) -> bool {
+        match self {
+            Self::All => true,
+            Self::These(wanted) => wanted.get(node).copied().unwrap_or(false),
+        }
+    }
+}
+
+impl Models {
+    /// Reads the files of all assets that bodies use, side by side.
+    pub(super) fn load(manifest: &Manifest, manifest_path: &Path, report: &mut Report) -> Self {
+        let mut files: Vec<&Path> = manifest
+            .bodies
+            .iter()
+            .filter_map(|body| Some(manifest.assets.get(&body.asset.value)?.file.value.as_path()))
+            .collect();
+        files.sort_unstable();
+        files.dedup();
+        let folder = manifest_path.parent().unwrap_or(Path::new(""));
+        let read: Vec<Result<Model, Error>> = files
+            .par_iter()
+            .map(|file| import::load(file, trusted_folder(file, folder)).map(Model::new))
+            .collect();
+        let mut models = BTreeMap::new();
+        for (file, model) in files.into_iter().zip(read) {
+            match model {
+                Ok(model) => {
+                    report.warnings.extend(model.asset.warnings.iter().cloned());
+                    models.insert(file.to_owned(), model);
+                }
+                Err(Error::Input(faults)) => report.faults.extend(faults),
+                Err(error) => report.fault(crate::error::Place::file(file), error.to_string(), ""),
+            }
+        }
+        Self(models)
+    }
+
+    fn get(&self, file: &Path) -> Option<&Model> {
+        self.0.get(file)
+    }
+
+    /// What a body is made of.
+    pub(super) fn of<'a>(&'a self, manifest: &'a Manifest, body: &Body) -> Option<(&'a AssetRef, &'a Model)> {
+        let reference = manifest.assets.get(&body.asset.value)?;
+        Some((reference, self.get(&reference.file.value)?))
+    }
+
+    /// The nodes that each asset takes of its file.
+    pub(super) fn chosen(&self, manifest: &Manifest, report: &mut Report) -> BTreeMap<String, Chosen> {
+        let mut read = |(name, reference): (&String, &AssetRef)| {
+            let model = self.get(&reference.file.value)?;
+            Some((name.clone(), Chosen::of(reference, &model.asset, report)))
+        };
+        manifest.assets.iter().filter_map(&mut read).collect()
+    }
+}
+
+impl Chosen {
+    /// All nodes of a file, or one with what hangs on it.
+    fn of(reference: &AssetRef, asset: &Asset, report: &mut Report) -> Self {
+        let Some(name) = &reference.node else { return Self::All };
+        let mut wanted = vec![false; asset.nodes.len()];
+        for (i, node) in asset.nodes.iter().enumerate() {
+            // Parents come before their children.
+            wanted[i] = node.name == name.value || node.parent.is_some_and(|parent| wanted[parent]);
+        }
+        if !wanted.contains(&true) {
+            let known = asset.nodes.iter().map(|node| node.name.as_str()).filter(|name| !name.is_empty());
+            let hint = match nearest_name(&name.value, known) {
+                Some(nearest) => format!("did you mean `{nearest}`?"),
+                None => format!("`terrell inspect {}` lists its nodes", asset.path.display()),
+            };
+            let what = format!("`{}` has no node named `{}`", asset.path.display(), name.value);
+            report.fault(name.place.clone(), what, hint);
+        }
+        Self::These(wanted)
+    }
+}
+
+impl Model {
+    fn new(asset: Asset) -> Self {
+        let triangles = asset.meshes.par_iter().map(|mesh| Arc::new(Triangles::new(mesh.clone()))).collect();
+        Self { asset, triangles }
+    }
+}
+
+/// The folder outside of which a model file may name no other: the manifest's, or the model's own where the
+/// manifest itself names a model elsewhere.
+fn trusted_folder<'a>(model: &'a Path, manifest_folder: &'a Path) -> &'a Path {
+    let real = |path: &Path| {
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        path.canonicalize().ok()
+    };
+    match (real(model), real(manifest_folder)) {
+        (Some(inner), Some(outer)) if inner.starts_with(&outer) => manifest_folder,
+        _ => model.parent().unwrap_or(Path::new("")),
+    }
+}
