@@ -117,7 +117,7 @@ fn both_ends_may_move_any_way() {
         let ray = tetrad.sight_ray(tetrad.direction_of(light_from(place, arrival).k));
         let found = first(&scene, &ray);
         let part = |velocity: Velocity| velocity.gamma() * (1.0 - velocity.beta().dot(n));
-        close(found.doppler.factor(), part(observer) / part(source), 1e-10);
+        close(found.doppler.factor(), part(observer) / part(source), 1e-12);
         near_vector(found.emission.x, place, 2e-3 * source.gamma());
     }
 }

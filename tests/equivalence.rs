@@ -147,7 +147,7 @@ fn boosting_everything_leaves_the_picture_as_it_is() {
         }
     }
     println!("worst {worst:e} relative; {others} of {} pixels are others", pictures * pixels);
-    assert!(worst < 1e-5, "{worst:e}");
+    assert!(worst < 1e-8, "{worst:e}");
 }
 
 /// A camera that flies at v through a still world, and a still camera before a world that flies at -v.
@@ -173,7 +173,7 @@ fn flying_camera_equals_flying_world() {
         let flying_world = exposed(&flying.seen_by(&eye), 0.0);
         let (worst, others) = difference(&flying_camera, &flying_world);
         println!("flying camera and world differ by {worst:e}, {others} other pixels");
-        assert!(worst < 1e-6 && others <= 2, "{worst:e}, {others}");
+        assert!(worst < 1e-10 && others <= 2, "{worst:e}, {others}");
     }
 }
 

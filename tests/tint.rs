@@ -47,9 +47,10 @@ fn moving_tinted_surface_reflects_by_the_wavelength_of_its_own_frame() {
         close(got, 3.0 * part(nm / omega) * omega.powi(-5), 1e-12);
     }
     // A line of the ambient light: at λω, by the reflectance at λ.
-    let nm = 520.0;
+    let nm = 550.0 / omega;
     stage.ambient = Some(line(nm, 3.0));
     let expected = matching(nm * omega) * (LUMENS_PER_WATT * 3.0 * part(nm) * omega.powi(-4));
+    assert!(expected.y > 0.0);
     near_vector(look(&stage.scene(), &ray).lines, expected, 1e-12 * expected.length());
 }
 
