@@ -46,7 +46,8 @@ fn rendering_leaves_every_picture_and_the_film_and_nothing_else() {
 
 #[test]
 fn one_thread_and_two_leave_the_same_bytes() {
-    let arguments = [&SMALL[..], &["--set", "exposures.count=4", "--set", "output={ folder: x, exr: on }"]].concat();
+    let arguments =
+        [&SMALL[..], &["--set", "exposures.count=4", "--set", "output={ folder: x, exr: on }"]].concat();
     let bytes = |threads: &str| {
         let (folder, output) = rendered(&[&arguments[..], &["--threads", threads]].concat());
         assert!(output.status.success(), "{}", said(&output));
@@ -81,7 +82,9 @@ fn faults_are_all_said_at_their_places_and_the_exit_code_is_two() {
         let output = terrell(&[command, path.to_str().unwrap()]);
         assert_eq!(output.status.code(), Some(2));
         let said = said(&output);
-        for words in ["m.yaml:3:20", "did you mean `velocity`?", "m.yaml:4:22", "at: 1 2 3 m", "m.yaml:5:23", "1.2 c"] {
+        for words in
+            ["m.yaml:3:20", "did you mean `velocity`?", "m.yaml:4:24", "at: 1 2 3 m", "m.yaml:5:23", "1.2 c"]
+        {
             assert!(said.contains(words), "{words} is missing in\n{said}");
         }
     }
