@@ -122,7 +122,7 @@ fn check_speeds(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], repo
     for exposure in ends {
         let tetrad = scene.observer.worldline.at(exposure.tau);
         let gamma = tetrad.velocity().t;
-        if !(gamma <= manifest::GREATEST_GAMMA && tetrad.event.t.is_finite()) {
+        if !(gamma <= manifest::GREATEST_GAMMA * (1.0 + 1e-9) && tetrad.event.t.is_finite()) {
             let what = format!("at exposure {} the observer's Lorentz factor is {gamma:.3e}", exposure.index);
             let hint = "up to 1e5 can be followed: take a shorter time or a smaller acceleration";
             return report.fault(manifest.exposures.place.clone(), what, hint);

@@ -158,7 +158,8 @@ fn speeds_just_below_light_are_kept() {
     // 1/√(2e-9) for 1 - 1e-9.
     let gamma = observer("{ velocity: 0 0 0.999999999 c }").placement.velocity.gamma();
     assert!((gamma / 22_360.679_8 - 1.0).abs() < 1e-7);
-    assert_eq!(observer("{ velocity: { gamma: 1e5, along: 0 1 0 } }").placement.velocity.gamma(), 1e5);
+    let gamma = observer("{ velocity: { gamma: 1e5, along: 0 1 0 } }").placement.velocity.gamma();
+    assert!((gamma / 1e5 - 1.0).abs() < 1e-15);
 }
 
 #[test]

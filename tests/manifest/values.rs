@@ -23,7 +23,7 @@ fn load(name: &str) -> Manifest {
 fn the_flyby_means_what_it_says() {
     let flyby = load("flyby.yaml");
     assert_eq!(flyby.light_speed, 1.0);
-    assert_eq!(flyby.assets["monkey"].file.value, Path::new("tests/manifests/good/../assets/monkey.glb"));
+    assert_eq!(flyby.assets["monkey"].file.value, Path::new("tests/manifests/assets/monkey.glb"));
     assert_eq!(flyby.assets["floor"].node.as_ref().map(|node| node.value.as_str()), Some("Floor"));
     let [monkey, floor] = flyby.bodies.as_slice() else { panic!("two bodies") };
     assert_eq!(monkey.asset.value, "monkey");
