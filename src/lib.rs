@@ -1,4 +1,12 @@
 //! What a camera would really see when things move near the speed of light.
+//!
+//! The data goes one way: a [`manifest`] names model files, which [`import`] reads; [`scene::compose`] makes of both a
+//! [`scene::Scene`], [`plan::Plan`] lists its exposures, and [`render::render`] exposes them ([`exposure`], [`trace`]),
+//! develops them ([`film`]) and writes them ([`output`]).
+//!
+//! Conventions: c = 1, lengths and times in metres, wavelengths in nanometres, angles in radians, light in watts
+//! (per steradian, square metre, nanometre) until it becomes XYZ in cd/m². See [`spacetime`] for those of relativity.
+
 pub mod cli;
 pub mod color;
 pub mod diagnostic;

@@ -107,7 +107,11 @@ fn film_fits(manifest: &Manifest, exposures: usize, report: &mut Report) -> bool
     let fits = short >= movie::SMALLEST && long <= movie::LARGEST.0 && short <= movie::LARGEST.1;
     if !fits {
         let what = format!("a film cannot be {width} x {height} pixels (16 x 16 to 3840 x 2160)");
-        report.fault(place.clone(), what, "choose another size, or write `film: { video: off }` for pictures alone");
+        report.fault(
+            place.clone(),
+            what,
+            "choose another size, or write `film: { video: off }` for pictures alone",
+        );
     }
     fits
 }

@@ -3,6 +3,7 @@
 
 mod aberration;
 mod boost;
+mod cli;
 mod delay;
 mod doppler;
 mod effects;

@@ -11,11 +11,11 @@ use std::path::Path;
 /// Checks a manifest and prints what it needs.
 pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error> {
     let (manifest, scene, plan) = super::prepare(path, changes)?;
-    println!("{}: no faults", path.display());
+    let mut text = format!("{}: no faults\n", path.display());
     for (what, how_much) in needs(&manifest, &scene, &plan) {
-        println!("  {what:<14} {how_much}");
+        text += &format!("  {what:<14} {how_much}\n");
     }
-    Ok(())
+    super::print(&text)
 }
 
 fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {

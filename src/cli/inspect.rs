@@ -23,11 +23,10 @@ pub(super) fn run(args: &InspectArgs) -> Result<(), Error> {
     if args.json {
         let text = serde_json::to_string_pretty(&as_json(&asset))
             .map_err(|error| Error::fault(Place::file(&args.model), error.to_string(), ""))?;
-        println!("{text}");
+        super::print(&(text + "\n"))
     } else {
-        print!("{}", as_text(&asset));
+        super::print(&as_text(&asset))
     }
-    Ok(())
 }
 
 fn name(of: &str) -> &str {
@@ -42,9 +41,13 @@ fn as_text(asset: &Asset) -> String {
     }
     let shown: usize = asset.instances.iter().map(|i| asset.meshes[i.mesh].triangles.len()).sum();
     text += &format!("{shown} triangles shown, {} meshes\n\nnodes\n", asset.meshes.len());
-    for number in 0..asset.nodes.len() {
-        let depth = std::iter::successors(asset.nodes[number].parent, |up| asset.nodes[*up].parent).count();
-        let things = contents(asset, number).join(", ");
+    let contents = contents(asset);
+    let mut depths: Vec<usize> = Vec::with_capacity(asset.nodes.len());
+    for (number, things) in contents.iter().enumerate() {
+        // Parents come before their children.
+        let depth = asset.nodes[number].parent.map_or(0, |parent| depths[parent] + 1);
+        depths.push(depth);
+        let things = things.join(", ");
         let indent = "  ".repeat(depth.min(40) + 1);
         text += &format!(
             "{indent}{}{}{things}\n",
@@ -62,26 +65,33 @@ fn as_text(asset: &Asset) -> String {
     text
 }
 
-/// What hangs on a node.
-fn contents(asset: &Asset, node: usize) -> Vec<String> {
-    let meshes = asset.instances.iter().filter(|instance| instance.node == node).map(|instance| {
+/// What hangs on each node.
+fn contents(asset: &Asset) -> Vec<Vec<String>> {
+    let mut contents = vec![Vec::new(); asset.nodes.len()];
+    for instance in &asset.instances {
         let mesh = &asset.meshes[instance.mesh];
-        format!("mesh {}, {} triangles", name(&mesh.name), mesh.triangles.len())
-    });
-    let lights = asset.lights.iter().filter(|light| light.node == node).map(|light| match light.kind {
-        LightKind::Point => format!("lamp, {:.4} cd", light.intensity),
-        LightKind::Spot { outer, .. } => {
-            format!("spot, {:.4} cd, cone {:.1} deg", light.intensity, 2.0 * outer.to_degrees())
-        }
-        LightKind::Sun => format!("sun, {:.4} lx", light.intensity),
-    });
-    let cameras = asset.cameras.iter().filter(|camera| camera.node == node).map(|camera| {
+        contents[instance.node].push(format!(
+            "mesh {}, {} triangles",
+            name(&mesh.name),
+            mesh.triangles.len()
+        ));
+    }
+    for light in &asset.lights {
+        contents[light.node].push(match light.kind {
+            LightKind::Point => format!("lamp, {:.4} cd", light.intensity),
+            LightKind::Spot { outer, .. } => {
+                format!("spot, {:.4} cd, cone {:.1} deg", light.intensity, 2.0 * outer.to_degrees())
+            }
+            LightKind::Sun => format!("sun, {:.4} lx", light.intensity),
+        });
+    }
+    for camera in &asset.cameras {
         let kind = camera
             .vertical_fov
             .map_or_else(|| "orthographic".to_owned(), |fov| format!("{:.1} deg high", fov.to_degrees()));
-        format!("camera {}, {kind}", name(&camera.name))
-    });
-    meshes.chain(lights).chain(cameras).collect()
+        contents[camera.node].push(format!("camera {}, {kind}", name(&camera.name)));
+    }
+    contents
 }
 
 fn describe(material: &Material) -> String {
@@ -115,8 +125,8 @@ fn as_json(asset: &Asset) -> Value {
     let nodes: Vec<Value> = asset
         .nodes
         .iter()
-        .enumerate()
-        .map(|(i, node)| json!({ "name": node.name, "parent": node.parent, "holds": contents(asset, i) }))
+        .zip(contents(asset))
+        .map(|(node, holds)| json!({ "name": node.name, "parent": node.parent, "holds": holds }))
         .collect();
     let materials: Vec<Value> = asset
         .materials

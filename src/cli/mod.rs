@@ -1,5 +1,5 @@
 //! The command line: flags as typed become what is meant. Only this folder and `main` print.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is the program's voice")]
+#![expect(clippy::print_stderr, reason = "this is the program's voice")]
 
 mod check;
 mod inspect;
@@ -12,7 +12,8 @@ use crate::plan::Plan;
 use crate::render;
 use crate::scene::{Scene, compose};
 use clap::{Args, Parser, Subcommand};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
+use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -51,7 +52,7 @@ struct RenderArgs {
     /// Only this exposure, by its number (the first is 0)
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
     exposure: Option<usize>,
-    /// Only the exposures from this number
+    /// Only the exposures from this number; a part of them makes no film
     #[arg(long, value_name = "N")]
     from: Option<usize>,
     /// Only the exposures up to this number
@@ -71,7 +72,7 @@ struct RenderArgs {
     no_video: bool,
     /// Threads to use (all unless said); the pictures are the same
     #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    threads: Option<NonZeroUsize>,
     #[command(flatten)]
     changes: Changes,
 }
@@ -129,8 +130,32 @@ fn complain(error: &Error) {
     }
 }
 
+/// Writes to the standard output. A reader that has gone (`| head`) wants no more, and no complaint.
+fn print(text: &str) -> Result<(), Error> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::machine(Path::new("standard output"), "writing", error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Warnings, each thing said once with the number of further places.
 fn warn(warnings: &[Fault]) {
-    eprint!("{}", diagnostic::render(warnings, true, colored()));
+    let mut said: Vec<(Fault, usize)> = Vec::new();
+    for warning in warnings {
+        match said.iter_mut().find(|(first, _)| first.what == warning.what && first.hint == warning.hint) {
+            Some((_, more)) => *more += 1,
+            None => said.push((warning.clone(), 0)),
+        }
+    }
+    for (warning, more) in &mut said {
+        if *more > 0 {
+            warning.what += &format!(" (and in {more} more)");
+        }
+    }
+    let said: Vec<Fault> = said.into_iter().map(|(warning, _)| warning).collect();
+    eprint!("{}", diagnostic::render(&said, true, colored()));
 }
 
 fn colored() -> bool {
@@ -152,6 +177,13 @@ fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene
 fn render_all(args: &RenderArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
     if let Some(size) = &args.size {
+        let fine =
+            size.split(['x', 'X', '×']).filter(|side| side.parse::<u32>().is_ok_and(|side| side > 0)).count()
+                == 2;
+        if !fine {
+            let what = format!("`--size {size}` is not a width and a height in pixels");
+            return Err(Error::fault(Place::Command, what, "--size 1280x720"));
+        }
         changes.push(("picture.size".to_owned(), size.replace(['x', 'X', '×'], " ")));
     }
     if let Some(samples) = &args.samples {
@@ -166,7 +198,7 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
     }
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = args.threads {
-        pool = pool.num_threads(threads);
+        pool = pool.num_threads(threads.get());
     }
     let pool = pool.build().map_err(|error| {
         Error::fault(Place::Command, format!("the threads could not be started: {error}"), "--threads 2")
@@ -190,10 +222,13 @@ fn chosen(args: &RenderArgs, count: usize) -> Result<Range<usize>, Error> {
         Some(only) => (only, only),
         None => (args.from.unwrap_or(0), args.to.unwrap_or(count - 1)),
     };
-    if from > to || to >= count {
-        let asked = if from == to { format!("exposure {from}") } else { format!("exposures {from} to {to}") };
-        let hint = format!("they are numbered from 0 to {}", count - 1);
-        return Err(Error::fault(Place::Command, format!("there is no {asked}"), hint));
+    let hint = format!("they are numbered from 0 to {}", count - 1);
+    if from.max(to) >= count {
+        return Err(Error::fault(Place::Command, format!("there is no exposure {}", from.max(to)), hint));
+    }
+    if from > to {
+        let what = format!("the exposures from {from} to {to} are none: the first comes after the last");
+        return Err(Error::fault(Place::Command, what, hint));
     }
     Ok(from..to + 1)
 }

@@ -55,7 +55,7 @@ impl Progress {
             let folder = path.parent().unwrap_or(path).display();
             return self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
         }
-        let due = self.last_line.is_none_or(|line| line.elapsed() >= BETWEEN_LINES);
+        let due = self.last_line.unwrap_or(self.started).elapsed() >= BETWEEN_LINES;
         if self.gauge.is_none() && due {
             self.last_line = Some(Instant::now());
             let each = self.started.elapsed().as_secs_f64() / self.done as f64;

@@ -8,6 +8,7 @@ use super::plain::NotNegative;
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, choice};
 use super::spectrum::{Spectrum, SpectrumKind};
+use crate::error::nearest_name;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -70,6 +71,10 @@ impl Kind for MaterialKind {
         match node.text() {
             Some("mirror") if !reader.materials.has("mirror") => {
                 Ok(Arc::new(Material::Mirror(Arc::new(Spectrum::Constant(1.0)))))
+            }
+            Some(name) if !reader.materials.has(name) && nearest_name(name, ["mirror"]).is_some() => {
+                let what = format!("there is no material named `{name}`");
+                Err(reader.fault(&node.place, what, "did you mean `mirror`?"))
             }
             Some(name) => names::find(&Spanned { value: name.to_owned(), place: node.place.clone() }, reader),
             None => Ok(Arc::new(<Material as Kind>::read(node, reader)?)),

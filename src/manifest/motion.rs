@@ -19,7 +19,7 @@ record! {
     pub Placement, "a placement" {
         /// Its origin's place in the lab at the lab time `at_time`.
         at: DVec3 = Point, default(DVec3::ZERO), "0 2 -9.5 m";
-        /// When it is there, and its own clock reads zero. Metres of light travel.
+        /// When it is there, and its own clock reads zero: 0 s unless said.
         at_time: f64 = Instant, default(0.0), "12 ns";
         /// Its velocity in the lab.
         velocity: Velocity = Motion, default(Velocity::REST), "0.9 0 0 c";
@@ -60,7 +60,15 @@ impl Kind for Motion {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Velocity> {
         if !matches!(node.content, Content::Map(_)) {
             let beta = VelocityVector::read(node, reader)?;
-            return Velocity::from_beta(beta).map_err(|_| too_fast(node, beta, reader));
+            let velocity = Velocity::from_beta(beta).map_err(|_| too_fast(node, beta, reader))?;
+            if velocity.gamma() > GREATEST_GAMMA {
+                return Err(reader.fault(
+                    &node.place,
+                    TOO_NEAR,
+                    "a Lorentz factor of 1e5 is the most: 0.99999999995 c",
+                ));
+            }
+            return Ok(velocity);
         }
         let keys = MotionKeys::read(node, reader)?;
         let along = |reader: &mut Reader<'_>| match keys.along {

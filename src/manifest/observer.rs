@@ -17,9 +17,9 @@ record! {
         @include placement: Placement, "The start frame S.";
         @include view: View, "Where the observer looks.";
         @include worldline: Worldline, "How the observer moves in S.";
-        /// What is up in the picture; a unit vector.
+        /// What is up in the picture: 0 1 0 unless said.
         up: DVec3 = Direction, default(DVec3::Y), "0 1 0";
-        /// Angle across the width of the picture, radians.
+        /// Angle across the width of the picture: 50 deg unless said.
         field_of_view: f64 = ViewAngle, default(50.0 * std::f64::consts::PI / 180.0), "50 deg";
     }
 }
@@ -27,7 +27,7 @@ record! {
 choice! {
     /// Where the observer looks: `direction: 0 0 -1` unless said.
     pub View, "the observer's view", otherwise(View::Direction(DVec3::NEG_Z)) {
-        /// A fixed direction; a unit vector.
+        /// A fixed direction: 0 0 -1 unless said.
         direction => Direction(DVec3) = Direction, "0 0 -1";
         /// A body, where it appears, or a place.
         look_at => LookAt(LookAt) = LookAt, "monkey";
@@ -101,15 +101,15 @@ record! {
         radius: f64 = Length, required, "4 m";
         /// Its axis; a unit vector.
         axis: DVec3 = Direction, default(DVec3::Y), "0 1 0";
-        /// How fast: γβ, below zero for the other way round.
+        /// How fast; below zero for the other way round.
         speed: f64 = Speed, required, "0.5 c";
-        /// Where on the circle the observer is at its time zero, radians.
+        /// Where on the circle the observer is at its time zero: 0 deg (towards +z) unless said.
         start: f64 = Angle, default(0.0), "30 deg";
     }
 }
 
 record! {
-    /// A ring of observers at rest in S. Angles count as for an [`Orbit`].
+    /// A ring of observers at rest in S. Angles count as for an orbit; `exposures` say how many, and `at` which instant.
     pub Ring, "a ring" {
         /// Its centre in S, metres.
         centre: DVec3 = Point, default(DVec3::ZERO), "0 1 0 m";

@@ -34,7 +34,7 @@ record! {
         from: Option<f64> = Instant, optional, "-4 s";
         /// The last.
         to: Option<Spanned<f64>> = Placed<Instant>, optional, "9 s";
-        /// The only one.
+        /// The only one (or that of a ring of observers).
         at: Option<Spanned<f64>> = Placed<Instant>, optional, "2 s";
         /// How many.
         count: Option<u32> = Count<1, MOST_EXPOSURES>, optional, "96";
@@ -215,17 +215,17 @@ impl Kind for Stops {
 record! {
     /// What each picture is like.
     pub Picture, "the picture" {
-        /// Width and height in pixels.
+        /// Width and height in pixels: 1280 720 unless said.
         size: (u32, u32) = Size, default((1280, 720)), "1280 720";
-        /// Sight rays for each pixel.
+        /// Sight rays for each pixel: 4 unless said; 1 is the pixel's centre.
         samples: u32 = Count<1, 65_536>, default(4), "16";
-        /// How often light is followed from mirror to mirror.
+        /// How often light is followed from mirror to mirror: 8 unless said.
         depth: u32 = Count<0, 64>, default(8), "4";
-        /// How many wavelengths are traced: 8, 16, 32 or 64.
+        /// How many wavelengths are traced: 8, 16 (unless said), 32 or 64.
         wavelengths: u32 = Wavelengths, default(16), "32";
-        /// How samples are weighed: `gaussian`, `tent` or `box`.
+        /// How samples are weighed: `gaussian` (unless said), `tent` or `box`.
         filter: Filter = Filter, default(Filter::Gaussian), "tent";
-        /// The luminance that is shown as white, or `auto`.
+        /// The luminance that is shown as white, or `auto` (unless said): from the brightness of the whole film.
         white: White = White, default(White::Auto), "250 cd/m2";
         /// Brighter (above zero) or darker, in factors of two.
         stops: f64 = Stops, default(0.0), "-1";
@@ -298,7 +298,7 @@ record! {
     pub Output, "the output" {
         /// The folder.
         folder: PathBuf = FilePath, required, "../out/flyby";
-        /// Whether pictures are written as OpenEXR too.
+        /// Whether pictures are written as OpenEXR too: `R G B` and `cie.X cie.Y cie.Z` in cd/m2, `doppler` (seen over emitted), `emission_time` (lab, s), `body` (its number from 0; -1 for none, where the other two are 0).
         exr: bool = Switch, default(false), "on";
     }
 }

@@ -7,7 +7,7 @@ use super::reader::{Read, Reader};
 use super::record::{Kind, Shape};
 use glam::DVec3;
 use std::marker::PhantomData;
-use std::path::PathBuf;
+use std::path::{Component, Path, PathBuf};
 
 /// A value and where it is written.
 pub(crate) struct Placed<K>(PhantomData<K>);
@@ -170,8 +170,23 @@ impl Kind for FilePath {
             let hint = reader.typed("folder/name");
             return Err(reader.fault(&node.place, "this is not a path", hint));
         }
-        Ok(reader.folder.join(text))
+        Ok(tidy(&reader.folder.join(text)))
     }
+}
+
+/// The path without `folder/..`, as long as nothing of it is a link that would lead elsewhere.
+fn tidy(path: &Path) -> PathBuf {
+    let mut tidy = PathBuf::new();
+    for part in path.components() {
+        let up = part == Component::ParentDir;
+        let named = matches!(tidy.components().next_back(), Some(Component::Normal(_)));
+        if up && named && !tidy.is_symlink() {
+            tidy.pop();
+        } else {
+            tidy.push(part);
+        }
+    }
+    tidy
 }
 
 /// Declares an enum whose values are words.

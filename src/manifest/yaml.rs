@@ -114,7 +114,11 @@ impl<'a> Builder<'a> {
             }
         }
         if self.root.as_ref().is_none_or(|root| root.is_nothing()) {
-            self.fault(0..0, "the file is empty", "manifests/flyby.yaml of the examples is one to begin with");
+            self.fault(
+                0..0,
+                "the file is empty",
+                "manifests/flyby.yaml of the examples is one to begin with",
+            );
             return None;
         }
         self.root.take()

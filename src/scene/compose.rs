@@ -31,6 +31,17 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
     let ambient = manifest.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
     let effects = effects(&manifest.effects);
     let observer = observer(manifest, report);
+    let dark = gathered.lamps.is_empty()
+        && ambient.is_none()
+        && gathered.surfaces.iter().all(|surface| surface.glow.is_none());
+    if dark && !manifest.bodies.is_empty() {
+        let place = crate::error::Place::file(path);
+        report.warn(
+            place,
+            "nothing shines, so nothing will be seen",
+            "lights: [{ sun: { illuminance: 300 lx } }]",
+        );
+    }
     if report.faults.is_empty() {
         let world = gathered.world.build();
         let depth = manifest.picture.depth;

@@ -80,7 +80,11 @@ fn source(
         ),
     };
     if source.is_none() && spectrum.total() == Some(0.0) {
-        report.fault(place.clone(), "this spectrum is dark at all wavelengths", "give it a value above zero somewhere");
+        report.fault(
+            place.clone(),
+            "this spectrum is dark at all wavelengths",
+            "give it a value above zero somewhere",
+        );
     } else if source.is_none() {
         report.fault(place.clone(), what, hint);
     }

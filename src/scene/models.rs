@@ -43,6 +43,11 @@ impl Models {
             .collect();
         files.sort_unstable();
         files.dedup();
+        let (there, absent): (Vec<_>, Vec<_>) = files.into_iter().partition(|file| file.exists());
+        let files = there;
+        for file in absent {
+            missing(file, manifest, report);
+        }
         let folder = manifest_path.parent().unwrap_or(Path::new(""));
         let read: Vec<Result<Model, Error>> = files
             .par_iter()
@@ -121,5 +126,21 @@ fn trusted_folder<'a>(model: &'a Path, manifest_folder: &'a Path) -> &'a Path {
     match (real(model), real(manifest_folder)) {
         (Some(inner), Some(outer)) if inner.starts_with(&outer) => manifest_folder,
         _ => model.parent().unwrap_or(Path::new("")),
+    }
+}
+
+/// Reports a model file that is not there, where the manifest names it.
+fn missing(file: &Path, manifest: &Manifest, report: &mut Report) {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let there: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let hint = match nearest_name(&name, there.iter().map(String::as_str)) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => "paths are relative to the manifest's folder".to_owned(),
+    };
+    for reference in manifest.assets.values().filter(|reference| reference.file.value == file) {
+        let what = format!("there is no file `{}`", file.display());
+        report.fault(reference.file.place.clone(), what, hint.clone());
     }
 }

@@ -1,0 +1,160 @@
+//! The program as a user meets it: what it leaves on the disk, what it says, how it ends.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn top(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn terrell(arguments: &[&str]) -> Output {
+    let program = Command::new(env!("CARGO_BIN_EXE_terrell")).current_dir(top("")).args(arguments).output();
+    program.unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// Renders into a folder of its own.
+fn rendered(arguments: &[&str]) -> (tempfile::TempDir, Output) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap().to_owned();
+    let output = terrell(&[&["render"], arguments, &["--out", &out]].concat());
+    (folder, output)
+}
+
+fn names(folder: &tempfile::TempDir) -> Vec<String> {
+    let entries = std::fs::read_dir(folder.path()).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+const SMALL: [&str; 5] = ["manifests/flyby.yaml", "--size", "32x18", "--samples", "2"];
+
+#[test]
+fn rendering_leaves_every_picture_and_the_film_and_nothing_else() {
+    let (folder, output) = rendered(&[&SMALL[..], &["--set", "exposures.count=3"]].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    let film: &[&str] = if cfg!(feature = "video") { &["flyby.mp4"] } else { &[] };
+    assert_eq!(names(&folder), [&["0000.png", "0001.png", "0002.png"], film].concat());
+    let picture = image::open(folder.path().join("0001.png")).unwrap();
+    assert_eq!((picture.width(), picture.height()), (32, 18));
+}
+
+#[test]
+fn one_thread_and_two_leave_the_same_bytes() {
+    let arguments =
+        [&SMALL[..], &["--set", "exposures.count=4", "--set", "output={ folder: x, exr: on }"]].concat();
+    let bytes = |threads: &str| {
+        let (folder, output) = rendered(&[&arguments[..], &["--threads", threads]].concat());
+        assert!(output.status.success(), "{}", said(&output));
+        let read = |name: String| (std::fs::read(folder.path().join(&name)).unwrap(), name);
+        names(&folder).into_iter().map(read).collect::<Vec<_>>()
+    };
+    let one = bytes("1");
+    assert!(one.len() >= 8);
+    assert!(one == bytes("2"));
+}
+
+#[test]
+fn one_exposure_alone_is_the_same_as_in_the_film() {
+    let film = rendered(&[&SMALL[..], &["--set", "exposures.count=4"]].concat()).0;
+    let (alone, _) = rendered(&[&SMALL[..], &["--set", "exposures.count=4", "--exposure", "2"]].concat());
+    assert_eq!(names(&alone), ["0002.png"]);
+    let read = |folder: &tempfile::TempDir| std::fs::read(folder.path().join("0002.png")).unwrap();
+    assert!(read(&film) == read(&alone));
+}
+
+#[test]
+fn faults_are_all_said_at_their_places_and_the_exit_code_is_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.yaml");
+    std::fs::write(
+        &path,
+        "assets: { head: nowhere.glb }\nbodies:\n  - { asset: head, velocty: 0.9 0 0 c }\n  - { asset: head, at: 1 2 3 }\n\
+         observer: { velocity: 1.2 0 0 c }\noutput: out\n",
+    )
+    .unwrap();
+    for command in ["check", "render"] {
+        let output = terrell(&[command, path.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = said(&output);
+        for words in
+            ["m.yaml:3:20", "did you mean `velocity`?", "m.yaml:4:24", "at: 1 2 3 m", "m.yaml:5:23", "1.2 c"]
+        {
+            assert!(said.contains(words), "{words} is missing in\n{said}");
+        }
+    }
+}
+
+#[test]
+fn missing_model_node_and_material_are_named_with_what_there_is() {
+    let set = |key_value: &str| said(&terrell(&["check", "manifests/flyby.yaml", "--set", key_value]));
+    assert!(set("assets.monkey=../assets/monky.glb").contains("monky.glb"));
+    let node = set("assets.studio={ file: ../assets/studio.glb, node: Flor }");
+    assert!(node.contains("no node named `Flor`") && node.contains("did you mean `Floor`?"), "{node}");
+    let material = set("bodies.0.materials={ Skinn: mirror }");
+    assert!(material.contains("no material named `Skinn`") && material.contains("`Skin`"), "{material}");
+}
+
+#[test]
+fn folder_that_cannot_be_written_is_the_machines_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocked = folder.path().join("file");
+    std::fs::write(&blocked, "").unwrap();
+    let out = blocked.join("in").to_str().unwrap().to_owned();
+    let output = terrell(&[&["render"], &SMALL[..], &["--exposure", "0", "--out", &out]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("file"));
+}
+
+#[test]
+fn check_says_what_the_scene_needs() {
+    let output = terrell(&["check", "manifests/flyby.yaml"]);
+    let said = said(&output);
+    assert!(output.status.success());
+    for words in ["no faults", "2 in 2 rest frames", "96 of 1280 x 720", "flyby.mp4"] {
+        assert!(said.contains(words), "{words} is missing in\n{said}");
+    }
+}
+
+#[test]
+fn inspect_names_what_can_be_copied_into_a_manifest() {
+    let tree = said(&terrell(&["inspect", "assets/studio.glb"]));
+    assert!(tree.contains("Floor") && tree.contains("Backdrop") && tree.contains("materials"));
+    let json = terrell(&["inspect", "--json", "assets/street.glb"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json["cameras"][0], "Camera");
+    assert_eq!(json["lights"], 10);
+}
+
+#[test]
+fn every_committed_manifest_is_without_fault() {
+    let found = |folder: &str| {
+        let entries = std::fs::read_dir(top(folder)).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path());
+        paths.filter(|path| path.extension().is_some_and(|e| e == "yaml")).collect::<Vec<_>>()
+    };
+    let manifests = [found("manifests"), found("tools/mitsuba")].concat();
+    assert!(manifests.len() >= 6);
+    for manifest in manifests {
+        let output = terrell(&["check", manifest.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", said(&output));
+    }
+}
+
+#[test]
+fn both_importers_read_what_blender_wrote_of_the_same_head() {
+    let extent = |model: &str| {
+        let json = terrell(&["inspect", "--json", model]);
+        let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+        let number = |end: usize, axis: usize| json["extent"][end][axis].as_f64().unwrap();
+        std::array::from_fn::<f64, 6, _>(|i| number(i / 3, i % 3))
+    };
+    let (glb, obj) = (extent("assets/monkey.glb"), extent("assets/monkey.obj"));
+    // The OBJ is coarser, so it is a little smaller.
+    assert!(glb.iter().zip(obj).all(|(a, b)| (a - b).abs() < 0.05 * a.abs()), "{glb:?} {obj:?}");
+}
