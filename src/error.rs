@@ -142,8 +142,6 @@ pub enum Error {
         /// What the machine said.
         source: std::io::Error,
     },
-    /// Interrupted by the user (exit code 130).
-    Interrupted,
 }
 
 impl Error {
@@ -162,7 +160,6 @@ impl Error {
         match self {
             Self::Input(_) => 2,
             Self::Machine { .. } => 1,
-            Self::Interrupted => 130,
         }
     }
 }
@@ -186,7 +183,6 @@ impl fmt::Display for Error {
                 Ok(())
             }
             Self::Machine { path, doing, source } => write!(f, "{}: {doing}: {source}", path.display()),
-            Self::Interrupted => write!(f, "interrupted"),
         }
     }
 }

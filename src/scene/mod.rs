@@ -8,7 +8,7 @@ pub use compose::{UNLIT_LUMINANCE, compose};
 
 use crate::lamp::Lamp;
 use crate::observer::Observer;
-use crate::spacetime::{Event, Poincare, Velocity};
+use crate::spacetime::{Event, Poincare, Rest, Velocity};
 use crate::spectrum::Source;
 use crate::surface::Surface;
 use crate::trace::{Effects, Lit};
@@ -61,7 +61,7 @@ pub struct Placement {
 
 impl Placement {
     /// Into the body's rest frame, its origin at the body's.
-    pub fn rest_from_lab<F: crate::spacetime::Frame>(&self) -> Poincare<F> {
+    pub fn rest_from_lab(&self) -> Poincare<Rest> {
         Poincare::to_moving(self.velocity, self.origin)
     }
 }
@@ -89,7 +89,7 @@ impl WorldBuilder {
         });
         let (first, placed) = &mut self.frames[index];
         // Bodies that share a rest frame differ by where they stand in it (their clocks play no part in meshes at rest).
-        let rest_from_lab: Poincare<crate::spacetime::Rest> = first.rest_from_lab();
+        let rest_from_lab: Poincare<Rest> = first.rest_from_lab();
         let shift: DVec3 = (rest_from_lab * placement.origin).x;
         let rest_from_mesh = DAffine3::from_translation(shift) * rest_from_mesh;
         placed.extend(Placed::new(triangles.clone(), rest_from_mesh, body, surfaces));
