@@ -191,7 +191,7 @@ impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Machine { source, .. } => Some(source),
-            _ => None,
+            Self::Input(_) => None,
         }
     }
 }

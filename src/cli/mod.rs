@@ -126,7 +126,7 @@ pub fn run() -> ExitCode {
 fn complain(error: &Error) {
     match error {
         Error::Input(faults) => eprint!("{}", diagnostic::render(faults, false, colored())),
-        error => eprintln!("error: {error}"),
+        error @ Error::Machine { .. } => eprintln!("error: {error}"),
     }
 }
 

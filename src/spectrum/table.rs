@@ -67,7 +67,7 @@ pub struct Daylight {
     above: f64,
 }
 
-/// See [`Daylight`].
+/// CIE standard illuminant D65, at any wavelength.
 pub static D65: LazyLock<Daylight> = LazyLock::new(|| {
     let table: Vec<f64> = rows::<2>(include_str!("d65.csv")).iter().map(|row| row[1]).collect();
     let (first, last) = (table[0], table[table.len() - 1]);
