@@ -1,22 +1,100 @@
 //! Assets and bodies as written.
 
 use super::Spanned;
-use super::material::{Material, MaterialKind};
+use super::light::{Glow, GlowKind};
+use super::material::{AnyMaterial, Material};
 use super::motion::Placement;
 use super::node::{Content, Node};
 use super::plain::{FilePath, Placed, Scale, Switch, Text};
 use super::reader::{Read, Reader, instead};
-use super::record::{Kind, List, Named, Shape, record};
+use super::record::{Entries, Field, Kind, List, Named, Presence, Record, Shape, record};
+use super::solid::{self, Pose, Solid, SolidForm};
+use crate::error::Place;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-record! {
+/// What bodies are copies of.
+#[derive(Debug, Clone)]
+pub struct AssetRef {
+    /// Where it is written.
+    pub place: Place,
+    /// A model file or a shape.
+    pub source: AssetSource,
+}
+
+/// Where an asset comes from.
+#[derive(Debug, Clone)]
+pub enum AssetSource {
     /// A model file, or a part of one.
-    pub AssetRef, "an asset" {
-        /// The file: `.glb`, `.gltf` or `.obj`.
-        file: Spanned<PathBuf> = Placed<FilePath>, required, "models/monkey.glb";
+    File(ModelFile),
+    /// A shape that is described in the manifest.
+    Solid(Solid),
+}
+
+/// A model file, or a part of one.
+#[derive(Debug, Clone)]
+pub struct ModelFile {
+    /// The file: `.glb`, `.gltf` or `.obj`.
+    pub file: Spanned<PathBuf>,
+    /// Only this node of the file, and its children.
+    pub node: Option<Spanned<String>>,
+    /// Whether the lights in the file come along.
+    pub lights: bool,
+}
+
+impl AssetRef {
+    /// Its model file; none for a shape.
+    pub fn file(&self) -> Option<&ModelFile> {
+        match &self.source {
+            AssetSource::File(file) => Some(file),
+            AssetSource::Solid(_) => None,
+        }
+    }
+
+    /// Its shape; none for a model file.
+    pub fn solid(&self) -> Option<&Solid> {
+        match &self.source {
+            AssetSource::File(_) => None,
+            AssetSource::Solid(solid) => Some(solid),
+        }
+    }
+}
+
+/// Where an asset comes from, as written: `file`, or one of the keys of a shape.
+#[derive(Debug, Clone)]
+enum SourceKeys {
+    File(Spanned<PathBuf>),
+    Form(SolidForm),
+}
+
+impl Record for SourceKeys {
+    const TITLE: &'static str = "an asset";
+    const DOC: &'static str = "Where an asset comes from.";
+    fn fields() -> Vec<Field> {
+        let file = Field {
+            key: "file",
+            doc: "A model file: `.glb`, `.gltf` or `.obj`.",
+            example: "models/monkey.glb",
+            presence: Presence::Alternative,
+            shape: FilePath::shape,
+        };
+        std::iter::once(file).chain(SolidForm::fields()).collect()
+    }
+    fn take(entries: &Entries<'_>, reader: &mut Reader<'_>) -> Read<Self> {
+        let given = entries.one_of(Self::TITLE, &Self::fields(), false, reader)?;
+        if given == Some("file") {
+            let key = ("file", "models/monkey.glb");
+            return entries.required::<Placed<FilePath>>(Self::TITLE, key, reader).map(Self::File);
+        }
+        SolidForm::take(entries, reader).map(Self::Form)
+    }
+}
+
+record! {
+    /// What else is said of a model file.
+    OfFile, "an asset" {
         /// Only this node of the file, and its children.
         node: Option<Spanned<String>> = Placed<Text>, optional, "Floor";
         /// Whether the lights in the file come along.
@@ -24,20 +102,54 @@ record! {
     }
 }
 
-/// An asset: a path, or a map.
+record! {
+    /// What bodies are copies of: a model file, a part of one, or a shape.
+    AssetKeys, "an asset" {
+        @include source: SourceKeys, "Where it comes from.";
+        @include of_file: OfFile, "What else is said of a file.";
+        @include pose: Pose, "Where a shape is from the body's origin.";
+    }
+}
+
+/// An asset: a path, a map, or the word `plane`.
 struct AssetKind;
 
 impl Kind for AssetKind {
     type Value = AssetRef;
     fn shape() -> Shape {
-        Shape::Either(vec![FilePath::shape(), AssetRef::shape()])
+        Shape::Either(vec![FilePath::shape(), AssetKeys::shape()])
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<AssetRef> {
-        if let Content::Map(_) = node.content {
-            return <AssetRef as Kind>::read(node, reader);
+        let place = node.place.clone();
+        if !matches!(node.content, Content::Map(_)) {
+            if let Some(solid) = solid::alone(node, reader)? {
+                return Ok(AssetRef { place, source: AssetSource::Solid(solid) });
+            }
+            let file = Placed::<FilePath>::read(node, reader)?;
+            let file = ModelFile { file, node: None, lights: true };
+            return Ok(AssetRef { place, source: AssetSource::File(file) });
         }
-        let file = Placed::<FilePath>::read(node, reader)?;
-        Ok(AssetRef { place: node.place.clone(), file, node: None, lights: true })
+        let AssetKeys { source, of_file, pose, .. } = AssetKeys::read(node, reader)?;
+        let source = match source {
+            SourceKeys::File(file) => {
+                let hint = "give it to the bodies that are made of it";
+                unwanted(node, &["at", "rotation"], "a model file", hint, reader)?;
+                AssetSource::File(ModelFile { file, node: of_file.node, lights: of_file.lights })
+            }
+            SourceKeys::Form(form) => {
+                unwanted(node, &["node", "lights"], "a shape", "it is for model files: remove it", reader)?;
+                AssetSource::Solid(solid::checked(Solid { place: place.clone(), form, pose }, reader)?)
+            }
+        };
+        Ok(AssetRef { place, source })
+    }
+}
+
+/// Faults keys that make no sense here.
+fn unwanted(node: &Node, keys: &[&str], what: &str, hint: &str, reader: &mut Reader<'_>) -> Read<()> {
+    match keys.iter().find_map(|key| Some((key, node.get(key)?))) {
+        Some((key, value)) => Err(reader.fault(&value.place, format!("{what} has no `{key}`"), hint)),
+        None => Ok(()),
     }
 }
 
@@ -68,9 +180,11 @@ record! {
         /// Its size in its rest frame: one factor, or one for each axis.
         scale: DVec3 = Scale, default(DVec3::ONE), "2";
         /// Its material, instead of those of its file: a name or a map.
-        material: Option<Arc<Material>> = MaterialKind, optional, "mirror";
+        material: Option<Arc<Material>> = AnyMaterial, optional, "mirror";
         /// Materials instead of single ones of its file, by the names that these have there.
         materials: Vec<(Spanned<String>, Arc<Material>)> = FileMaterials, default(Vec::new()), "{ Skin: mirror }";
+        /// Light that falls on it from all sides alike, in its rest frame, instead of that which falls on all bodies.
+        ambient: Option<Glow> = GlowKind, optional, "{ luminance: 20 cd/m2 }";
     }
 }
 
@@ -106,10 +220,10 @@ struct FileMaterials;
 impl Kind for FileMaterials {
     type Value = Vec<(Spanned<String>, Arc<Material>)>;
     fn shape() -> Shape {
-        Named::<MaterialKind>::shape()
+        Named::<AnyMaterial>::shape()
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Self::Value> {
-        let mut named = Named::<MaterialKind>::read(node, reader)?;
+        let mut named = Named::<AnyMaterial>::read(node, reader)?;
         let Content::Map(entries) = &node.content else { return Ok(Vec::new()) };
         let place = |entry: &super::node::Entry| entry.key_place.clone();
         Ok(entries

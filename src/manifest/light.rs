@@ -1,9 +1,11 @@
 //! Lights as written.
 
+use super::Spanned;
+use super::course::Course;
 use super::motion::Placement;
 use super::node::Node;
-use super::plain::Direction;
-use super::quantity::{ConeAngle, Quantity};
+use super::plain::{Direction, Placed};
+use super::quantity::{ConeAngle, Quantity, Temperature};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, choice, record};
 use super::spectrum::{Spectrum, SpectrumKind};
@@ -35,6 +37,7 @@ record! {
     pub Light, "a light" {
         @include source: LightSource, "What kind of light it is.";
         @include placement: Placement, "Where it is and how it moves.";
+        @include course: Course, "How it changes.";
     }
 }
 
@@ -134,6 +137,8 @@ choice! {
         luminance => Luminance(Amount) = Luminance, "500 cd/m2";
         /// Its radiance.
         radiance => Radiance(Amount) = Radiance, "3 W/m2/sr";
+        /// The temperature of a black body, which says both how bright it is and of what spectrum.
+        black_body => BlackBody(f64) = Temperature, "5778 K";
     }
 }
 
@@ -142,7 +147,7 @@ record! {
     GlowKeys, "this light" {
         @include brightness: Brightness, "How bright.";
         /// Its light; daylight (D65) unless said.
-        spectrum: Arc<Spectrum> = SpectrumKind, default(Arc::new(Spectrum::D65)), "{ black_body: 3000 K }";
+        spectrum: Option<Spanned<Arc<Spectrum>>> = Placed<SpectrumKind>, optional, "{ black_body: 3000 K }";
     }
 }
 
@@ -156,8 +161,21 @@ impl Kind for GlowKind {
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Glow> {
         let keys = GlowKeys::read(node, reader)?;
-        let (Brightness::Luminance(brightness) | Brightness::Radiance(brightness)) = keys.brightness;
-        Ok(Glow { place: keys.place, brightness, spectrum: keys.spectrum })
+        let (brightness, spectrum) = match (keys.brightness, keys.spectrum) {
+            (Brightness::BlackBody(_), Some(spectrum)) => {
+                let what = "the temperature of a black body says its spectrum already";
+                return Err(reader.fault(&spectrum.place, what, "remove `spectrum`, or give a `luminance`"));
+            }
+            (Brightness::BlackBody(kelvin), None) => {
+                let radiance = crate::spectrum::Spectrum::BlackBody(kelvin).total().unwrap_or_default();
+                (Amount::Radiometric(radiance), Arc::new(Spectrum::BlackBody(kelvin)))
+            }
+            (Brightness::Luminance(amount) | Brightness::Radiance(amount), spectrum) => {
+                let spectrum = spectrum.map(|spectrum| spectrum.value);
+                (amount, spectrum.unwrap_or_else(|| Arc::new(Spectrum::D65)))
+            }
+        };
+        Ok(Glow { place: keys.place, brightness, spectrum })
     }
 }
 

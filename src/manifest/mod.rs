@@ -13,6 +13,8 @@
 //! ~~~
 
 mod body;
+mod course;
+mod glass;
 mod light;
 mod material;
 mod motion;
@@ -20,28 +22,36 @@ mod names;
 mod node;
 mod observer;
 mod overrides;
+mod paint;
 mod picture;
 mod plain;
 mod quantity;
 mod reader;
 mod record;
 mod reference;
+mod solid;
 mod spectrum;
+mod surroundings;
 mod table;
 mod units;
 mod yaml;
 
-pub use body::{AssetRef, Body};
+pub use body::{AssetRef, AssetSource, Body, ModelFile};
+pub use course::{Blinking, Course, Key};
+pub use glass::{Glass, GlassName, Index, Tint};
 pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
-pub use material::Material;
+pub use material::{Beyond, BlinkingMaterial, Gloss, Material, MaterialKey, MaterialKind, Metal, MetalName};
 pub(crate) use motion::GREATEST_GAMMA;
 pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
+pub use paint::Paint;
 pub use picture::{Clock, Effects, Exposures, Film, Filter, Output, Picture, White};
 pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};
 pub use reference::reference;
+pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
+pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
 pub use table::Rows;
 
 use crate::error::{Place, Report};
@@ -58,6 +68,7 @@ use spectrum::Spectra;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
+use surroundings::SurroundingsKind;
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -77,7 +88,7 @@ record! {
         spectra: BTreeMap<String, Arc<Spectrum>> = Spectra, default(BTreeMap::new()), "{ sodium: { line: 589 nm } }";
         /// Materials by name.
         materials: BTreeMap<String, Arc<Material>> = Materials, default(BTreeMap::new()), "{ white: { diffuse: 0.8 } }";
-        /// Model files by name.
+        /// Model files and shapes by name.
         assets: BTreeMap<String, AssetRef> = Assets, default(BTreeMap::new()), "{ monkey: models/monkey.glb }";
         /// What is there to be seen.
         bodies: Vec<Body> = Bodies, default(Vec::new()), "[{ asset: monkey }]";
@@ -85,6 +96,8 @@ record! {
         lights: Vec<Light> = List<Light>, default(Vec::new()), "[{ lamp: { intensity: 300 cd } }]";
         /// Light that falls on each body from all sides alike, in its rest frame.
         ambient: Option<Glow> = GlowKind, optional, "{ luminance: 20 cd/m2 }";
+        /// What is seen behind everything, infinitely far away; a list of them if they are at rest in several frames.
+        surroundings: Vec<Surroundings> = SurroundingsKind, default(Vec::new()), "{ stars: { seed: 7, count: 5000 } }";
         /// Who looks.
         observer: Observer = ObserverKind, required, "{ at: 0 1.2 5 m }";
         /// When pictures are taken: one, at 0 s, unless said.
@@ -156,6 +169,13 @@ fn read(path: &Path, root: &node::Node, report: &mut Report) -> Option<Manifest>
     for (name, asset) in &manifest.assets {
         if !used.contains(name) {
             report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
+        }
+    }
+    for body in &manifest.bodies {
+        let asset = manifest.assets.get(&body.asset.value);
+        if let (Some((name, _)), Some(_)) = (body.materials.first(), asset.and_then(AssetRef::solid)) {
+            let what = format!("a shape has no material named `{}`, nor any other", name.value);
+            report.fault(name.place.clone(), what, "material: mirror (for all of it)");
         }
     }
     if manifest.film.is_none() && manifest.exposures.count > 1 {

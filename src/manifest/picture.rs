@@ -219,7 +219,7 @@ record! {
         size: (u32, u32) = Size, default((1280, 720)), "1280 720";
         /// Sight rays for each pixel: 4 unless said; 1 is the pixel's centre.
         samples: u32 = Count<1, 65_536>, default(4), "16";
-        /// How often light is followed from mirror to mirror: 8 unless said.
+        /// How often light is followed, from mirror to mirror and through glass: 8 unless said.
         depth: u32 = Count<0, 64>, default(8), "4";
         /// How many wavelengths are traced: 8, 16 (unless said), 32 or 64.
         wavelengths: u32 = Wavelengths, default(16), "32";

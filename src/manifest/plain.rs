@@ -5,9 +5,14 @@ use super::node::Node;
 use super::quantity::{Written, vector};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape};
+use crate::error::nearest_name;
 use glam::DVec3;
+use std::collections::BTreeSet;
 use std::marker::PhantomData;
 use std::path::{Component, Path, PathBuf};
+
+/// Files of a folder that are looked through for one that was meant.
+const MOST_NEIGHBOURS: usize = 10_000;
 
 /// A value and where it is written.
 pub(crate) struct Placed<K>(PhantomData<K>);
@@ -50,6 +55,24 @@ impl Kind for NotNegative {
         }
         let hint = reader.typed(&format!("{} (zero or more)", -number));
         Err(reader.fault(&node.place, format!("`{number}` is below zero"), hint))
+    }
+}
+
+/// A bare number from 0 to 1.
+pub(crate) struct Part;
+
+impl Kind for Part {
+    type Value = f64;
+    fn shape() -> Shape {
+        Shape::Number("a bare number from 0 to 1")
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let number = Real::read(node, reader)?;
+        if (0.0..=1.0).contains(&number) {
+            return Ok(number);
+        }
+        let hint = reader.typed(&format!("{} (from 0 to 1)", number.clamp(0.0, 1.0)));
+        Err(reader.fault(&node.place, format!("`{number}` is out of range"), hint))
     }
 }
 
@@ -174,6 +197,32 @@ impl Kind for FilePath {
     }
 }
 
+/// The path of a file that is there.
+pub(crate) struct ThereFile;
+
+impl Kind for ThereFile {
+    type Value = PathBuf;
+    fn shape() -> Shape {
+        FilePath::shape()
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<PathBuf> {
+        let path = FilePath::read(node, reader)?;
+        if path.is_file() {
+            return Ok(path);
+        }
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().take(MOST_NEIGHBOURS);
+        let there: BTreeSet<_> =
+            entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        let hint = match nearest_name(&name, there.iter().map(String::as_str)).filter(|near| *near != name) {
+            Some(nearest) => format!("did you mean `{nearest}`?"),
+            None => "paths are relative to the manifest's folder".to_owned(),
+        };
+        Err(reader.fault(&node.place, format!("there is no file `{}`", path.display()), hint))
+    }
+}
+
 /// The path without `folder/..`, as long as nothing of it is a link that would lead elsewhere.
 fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
@@ -220,7 +269,7 @@ pub(crate) fn word<'n>(node: &'n Node, what: &str, known: &[&str], reader: &mut 
     if known.contains(&text) {
         return Ok(text);
     }
-    let nearest = crate::error::nearest_name(text, known.iter().copied());
+    let nearest = nearest_name(text, known.iter().copied());
     let typed = reader.typed(nearest.or(known.first().copied()).unwrap_or_default());
     let hint = format!("{typed} (one of {})", known.join(", "));
     Err(reader.fault(&node.place, format!("`{text}` is not {what}"), hint))

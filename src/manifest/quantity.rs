@@ -270,6 +270,8 @@ scalars! {
     Length: "a length", [Length], "m", |x| x > 0.0, "2 m (above zero)";
     /// Metres of light travel.
     Instant: "a time", [Duration, Length], "s";
+    /// Metres of light travel, > 0.
+    Period: "a time", [Duration, Length], "s", |x| x >= 1e-30, "2 s (above zero)";
     /// Radians.
     Angle: "an angle", [Angle], "deg";
     /// Radians, between 0 and 180 degrees.

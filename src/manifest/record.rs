@@ -225,9 +225,13 @@ impl<'n> Entries<'n> {
     }
 }
 
+/// The keys of a map, to be shown.
+pub(crate) fn keys<R: Record>() -> String {
+    R::fields().iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
+}
+
 fn keys_hint<R: Record>() -> String {
-    let keys: Vec<_> = R::fields().iter().map(|field| field.key).collect();
-    format!("the keys of {} are {}", R::TITLE, keys.join(", "))
+    format!("the keys of {} are {}", R::TITLE, keys::<R>())
 }
 
 /// A list, each item of one kind.
@@ -284,6 +288,14 @@ pub(crate) fn named_entries<'n>(node: &'n Node, reader: &mut Reader<'_>) -> Read
     let key = reader.key().unwrap_or("this").to_owned();
     let what = format!("`{key}` is a map of names; this is {}", node.describe());
     Err(reader.fault(&node.place, what, "write `name: ..` for each, indented alike"))
+}
+
+/// A key as it is written: `r#box` is `box`, a word that Rust keeps for itself.
+pub(crate) const fn plain_key(name: &'static str) -> &'static str {
+    match name.as_bytes() {
+        [b'r', b'#', ..] => name.split_at(2).1,
+        _ => name,
+    }
 }
 
 /// Declares a record; see the module.
@@ -367,7 +379,7 @@ macro_rules! choice {
             const DOC: &'static str = concat!($($doc, "\n"),*);
             fn fields() -> Vec<$crate::manifest::record::Field> {
                 vec![$( $crate::manifest::record::Field {
-                    key: stringify!($key),
+                    key: $crate::manifest::record::plain_key(stringify!($key)),
                     doc: concat!($($fdoc, "\n"),*),
                     example: $example,
                     presence: $crate::manifest::record::Presence::Alternative,
@@ -382,12 +394,14 @@ macro_rules! choice {
                 let mut otherwise: Option<fn() -> Self> = None;
                 $( otherwise = Some(|| $default); )?
                 let given = entries.one_of($title, &Self::fields(), otherwise.is_some(), reader);
-                $( let $key = entries.optional::<$kind>(stringify!($key), reader); )*
-                match (given?, otherwise) {
-                    (None, Some(otherwise)) => return Ok(otherwise()),
-                    $( (Some(stringify!($key)), _) => if let Some(value) = $key? { return Ok(Self::$variant(value)) }, )*
-                    _ => {}
+                $( let $key = entries.optional::<$kind>($crate::manifest::record::plain_key(stringify!($key)), reader); )*
+                let given = given?;
+                if let (None, Some(otherwise)) = (given, otherwise) {
+                    return Ok(otherwise());
                 }
+                $( if given == Some($crate::manifest::record::plain_key(stringify!($key))) {
+                    return $key?.map(Self::$variant).ok_or($crate::manifest::reader::Reported);
+                } )*
                 Err($crate::manifest::reader::Reported)
             }
         }

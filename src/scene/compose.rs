@@ -4,7 +4,7 @@ use super::models::{Chosen, Model, Models};
 use super::{Placement, Scene, WorldBuilder, light};
 use crate::error::Report;
 use crate::import;
-use crate::manifest::{self, AssetRef, LookAt, Manifest};
+use crate::manifest::{self, LookAt, Manifest, MaterialKind, ModelFile};
 use crate::observer::{Aim, Observer, Unaberrated};
 use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
 use crate::spectrum::{Reflectance, Source};
@@ -24,6 +24,10 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
     for (number, body) in manifest.bodies.iter().enumerate() {
         let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) else { continue };
         gathered.add_body(number as u32, body, model, report);
+    }
+    let unseen = manifest.assets.values().filter(|asset| asset.solid().is_some()).map(|asset| &asset.place);
+    for place in unseen.chain(manifest.surroundings.iter().map(|surroundings| &surroundings.place)) {
+        report.fault(place.clone(), "this is not rendered yet", "remove it");
     }
     for light in &manifest.lights {
         gathered.lamps.extend(light::from_manifest(light, report));
@@ -80,7 +84,7 @@ impl Gathered {
         &mut self,
         number: u32,
         body: &manifest::Body,
-        ((reference, model), chosen): ((&AssetRef, &Model), &Chosen),
+        ((reference, model), chosen): ((&ModelFile, &Model), &Chosen),
         report: &mut Report,
     ) {
         let placement = placement(&body.placement);
@@ -135,16 +139,20 @@ fn surface(material: &manifest::Material, body: &manifest::Body, report: &mut Re
             Reflectance::Constant(0.0)
         }
     };
-    match material {
-        manifest::Material::Diffuse(spectrum) => {
+    match &material.kind {
+        MaterialKind::Diffuse(manifest::Paint::Even(spectrum)) => {
             Surface { scatter: Scatter::Diffuse(reflectance(spectrum)), glow: None }
         }
-        manifest::Material::Mirror(spectrum) => {
+        MaterialKind::Mirror(manifest::Paint::Even(spectrum)) => {
             Surface { scatter: Scatter::Mirror(reflectance(spectrum)), glow: None }
         }
-        manifest::Material::Emission(glow) => {
+        MaterialKind::Emission(glow) => {
             let glow = light::radiance(glow, report).map(|radiance| Glow { radiance, paint: None });
             Surface { scatter: Scatter::Absorb, glow }
+        }
+        _ => {
+            report.fault(material.place.clone(), "this material is not rendered yet", "diffuse: 0.8");
+            Surface { scatter: Scatter::Absorb, glow: None }
         }
     }
 }

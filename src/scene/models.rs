@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Report, nearest_name};
 use crate::import::{self, Asset};
-use crate::manifest::{AssetRef, Body, Manifest};
+use crate::manifest::{AssetRef, Body, Manifest, ModelFile};
 use crate::triangles::Triangles;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ impl Models {
         let mut files: Vec<&Path> = manifest
             .bodies
             .iter()
-            .filter_map(|body| Some(manifest.assets.get(&body.asset.value)?.file.value.as_path()))
+            .filter_map(|body| Some(manifest.assets.get(&body.asset.value)?.file()?.file.value.as_path()))
             .collect();
         files.sort_unstable();
         files.dedup();
@@ -72,14 +72,19 @@ impl Models {
     }
 
     /// What a body is made of.
-    pub(super) fn of<'a>(&'a self, manifest: &'a Manifest, body: &Body) -> Option<(&'a AssetRef, &'a Model)> {
-        let reference = manifest.assets.get(&body.asset.value)?;
+    pub(super) fn of<'a>(
+        &'a self,
+        manifest: &'a Manifest,
+        body: &Body,
+    ) -> Option<(&'a ModelFile, &'a Model)> {
+        let reference = manifest.assets.get(&body.asset.value)?.file()?;
         Some((reference, self.get(&reference.file.value)?))
     }
 
     /// The nodes that each asset takes of its file.
     pub(super) fn chosen(&self, manifest: &Manifest, report: &mut Report) -> BTreeMap<String, Chosen> {
         let mut read = |(name, reference): (&String, &AssetRef)| {
+            let reference = reference.file()?;
             let model = self.get(&reference.file.value)?;
             Some((name.clone(), Chosen::of(reference, &model.asset, report)))
         };
@@ -89,7 +94,7 @@ impl Models {
 
 impl Chosen {
     /// All nodes of a file, or one with what hangs on it.
-    fn of(reference: &AssetRef, asset: &Asset, report: &mut Report) -> Self {
+    fn of(reference: &ModelFile, asset: &Asset, report: &mut Report) -> Self {
         let Some(name) = &reference.node else { return Self::All };
         let mut wanted = vec![false; asset.nodes.len()];
         for (i, node) in asset.nodes.iter().enumerate() {
@@ -139,7 +144,9 @@ fn missing(file: &Path, manifest: &Manifest, report: &mut Report) {
         Some(nearest) => format!("did you mean `{nearest}`?"),
         None => "paths are relative to the manifest's folder".to_owned(),
     };
-    for reference in manifest.assets.values().filter(|reference| reference.file.value == file) {
+    for reference in
+        manifest.assets.values().filter_map(AssetRef::file).filter(|reference| reference.file.value == file)
+    {
         let what = format!("there is no file `{}`", file.display());
         report.fault(reference.file.place.clone(), what, hint.clone());
     }

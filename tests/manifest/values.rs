@@ -8,8 +8,8 @@ use std::path::Path;
 use std::sync::Arc;
 use terrell::error::{Place, Report};
 use terrell::manifest::{
-    self, Amount, Clock, Filter, Illuminant, LightSource, Line, LookAt, Manifest, Material, Presence, Shape,
-    Spectrum, Strength, View, White, Worldline,
+    self, Amount, Clock, Filter, Illuminant, LightSource, Line, LookAt, Manifest, MaterialKind, Paint,
+    Presence, Shape, Spectrum, Strength, View, White, Worldline,
 };
 
 fn load(name: &str) -> Manifest {
@@ -23,8 +23,14 @@ fn load(name: &str) -> Manifest {
 fn the_flyby_means_what_it_says() {
     let flyby = load("flyby.yaml");
     assert_eq!(flyby.light_speed, 1.0);
-    assert_eq!(flyby.assets["monkey"].file.value, Path::new("tests/manifests/assets/monkey.glb"));
-    assert_eq!(flyby.assets["floor"].node.as_ref().map(|node| node.value.as_str()), Some("Floor"));
+    assert_eq!(
+        flyby.assets["monkey"].file().unwrap().file.value,
+        Path::new("tests/manifests/assets/monkey.glb")
+    );
+    assert_eq!(
+        flyby.assets["floor"].file().unwrap().node.as_ref().map(|node| node.value.as_str()),
+        Some("Floor")
+    );
     let [monkey, floor] = flyby.bodies.as_slice() else { panic!("two bodies") };
     assert_eq!(monkey.asset.value, "monkey");
     assert_eq!(monkey.placement.at, DVec3::new(-6.0, 1.0, 0.0));
@@ -55,10 +61,10 @@ fn every_key_can_be_written() {
         Spectrum::Table(Arc::from([(400.0, 0.1), (500.0, 0.5), (600.0, 0.25)]))
     );
     assert!(
-        matches!(&*studio.materials["paint"], Material::Diffuse(paint) if **paint == Spectrum::Rgb([0.8, 0.2, 0.1]))
+        matches!(&studio.materials["paint"].kind, MaterialKind::Diffuse(Paint::Even(paint)) if **paint == Spectrum::Rgb([0.8, 0.2, 0.1]))
     );
     assert!(
-        matches!(studio.bodies[1].material.as_deref(), Some(Material::Mirror(part)) if **part == Spectrum::Constant(0.9))
+        matches!(studio.bodies[1].material.as_deref().map(|material| &material.kind), Some(MaterialKind::Mirror(Paint::Even(part))) if **part == Spectrum::Constant(0.9))
     );
     let names: Vec<_> = studio.bodies[1].materials.iter().map(|(name, _)| name.value.as_str()).collect();
     assert_eq!(names, ["Eyes", "Skin"]);
@@ -67,7 +73,8 @@ fn every_key_can_be_written() {
         studio.bodies.iter().map(manifest::Body::known_as).collect::<Vec<_>>(),
         ["left", "right", "floor"]
     );
-    assert!(!studio.assets["floor"].lights && studio.assets["monkey"].lights);
+    let lights = |name: &str| studio.assets[name].file().unwrap().lights;
+    assert!(!lights("floor") && lights("monkey"));
     let strengths: Vec<_> = studio
         .lights
         .iter()
@@ -148,15 +155,21 @@ fn spectra_are_resolved_to_what_they_are_made_of() {
 #[test]
 fn the_word_mirror_is_a_perfect_mirror_unless_it_is_given_another_meaning() {
     let perfect = complete("materials: { a: mirror }");
-    assert!(matches!(&*perfect.materials["a"], Material::Mirror(part) if **part == Spectrum::Constant(1.0)));
+    assert!(
+        matches!(&perfect.materials["a"].kind, MaterialKind::Mirror(Paint::Even(part)) if **part == Spectrum::Constant(1.0))
+    );
     let dull = complete("materials: { a: mirror, mirror: { mirror: 0.5 } }");
-    assert!(matches!(&*dull.materials["a"], Material::Mirror(part) if **part == Spectrum::Constant(0.5)));
+    assert!(
+        matches!(&dull.materials["a"].kind, MaterialKind::Mirror(Paint::Even(part)) if **part == Spectrum::Constant(0.5))
+    );
 }
 
 #[test]
 fn reflectances_may_have_names_that_begin_with_a_digit() {
     let m = complete("spectra: { 18%: { constant: 0.18 } }\nmaterials: { card: { diffuse: 18% } }");
-    assert!(matches!(&*m.materials["card"], Material::Diffuse(part) if **part == Spectrum::Constant(0.18)));
+    assert!(
+        matches!(&m.materials["card"].kind, MaterialKind::Diffuse(Paint::Even(part)) if **part == Spectrum::Constant(0.18))
+    );
 }
 
 #[test]
@@ -225,8 +238,8 @@ fn aliases_repeat_what_they_stand_for() {
 fn places_are_kept_for_later_stages() {
     let m = load("flyby.yaml");
     let at = |place: &Place| place.line_column().unwrap();
-    assert_eq!(at(&m.assets["monkey"].file.place), (4, 11));
-    assert_eq!(at(&m.assets["floor"].node.as_ref().unwrap().place), (5, 47));
+    assert_eq!(at(&m.assets["monkey"].file().unwrap().file.place), (4, 11));
+    assert_eq!(at(&m.assets["floor"].file().unwrap().node.as_ref().unwrap().place), (5, 47));
     assert_eq!(at(&m.bodies[0].asset.place), (7, 12));
     assert_eq!(at(&m.bodies[1].place), (10, 5));
     assert_eq!(at(&m.lights[0].place), (12, 5));
