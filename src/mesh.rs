@@ -26,6 +26,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Shading normals, unit length, one a vertex.
     pub normals: Vec<Vec3>,
+    /// Unit tangents and their hand (±1), one a vertex, or empty.
+    pub tangents: Vec<[f32; 4]>,
     /// Up to two sets of texture coordinates, each one a vertex or empty.
     pub uvs: [Vec<Vec2>; 2],
     /// Linear RGBA, one a vertex, or empty for white.

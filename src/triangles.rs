@@ -66,6 +66,16 @@ impl Triangles {
         self.tree.walk(line, s_max, met) < 0.0
     }
 
+    /// All meetings at 0 < s < `s_max`, in no order, until one is enough: whether it was.
+    pub fn until(&self, line: &Line, s_max: f64, enough: &mut dyn FnMut(Meeting) -> bool) -> bool {
+        let sheared = Sheared::new(line);
+        let met = |triangle, limit| match self.meet(&sheared, triangle, limit) {
+            Some(meeting) if enough(meeting) => -1.0,
+            _ => limit,
+        };
+        self.tree.walk(line, s_max, met) < 0.0
+    }
+
     #[inline]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
         let [a, b, c] = self.mesh.triangles[triangle as usize];

@@ -1,0 +1,309 @@
+//! Surfaces with a gloss, and bare metals.
+
+use super::microfacet::highlight;
+use super::paint::{Paint, Tint};
+use super::veil::NormalMap;
+use super::{Glass, Look, Scatter, Surface};
+use crate::fresnel;
+use crate::spectrum::Metal;
+use crate::texture::Texture;
+use glam::DVec3;
+use std::f64::consts::FRAC_1_PI;
+
+/// A bare material with a roughness.
+#[derive(Debug, Clone)]
+pub struct Polish<M> {
+    /// The material.
+    pub of: M,
+    /// The square root of GGX's α, 0 to 1.
+    pub roughness: f64,
+}
+
+/// glTF's metallic-roughness surface, with `KHR_materials_ior`, `_specular` and `_clearcoat`.
+#[derive(Debug, Clone)]
+pub struct Gloss {
+    /// The diffuse reflectance of a dielectric, the reflectance of a metal that faces the light.
+    pub base: Paint,
+    /// How much of a metal it is, 0 to 1.
+    pub metallic: f64,
+    /// The square root of GGX's α, 0 to 1.
+    pub roughness: f64,
+    /// Multiplies both: metalness in blue, roughness in green.
+    pub metal_rough: Option<Texture>,
+    /// The index of the dielectric: what it reflects when it faces the light is `((n - 1)/(n + 1))²`.
+    pub index: f64,
+    /// How strong the dielectric's reflection is.
+    pub specular: f64,
+    /// Multiplies it, in alpha.
+    pub specular_texture: Option<Texture>,
+    /// Its colour when facing the light; none for white.
+    pub specular_color: Option<Paint>,
+    /// A coat over it all.
+    pub clearcoat: Option<Clearcoat>,
+}
+
+/// A second, dielectric layer (index 1.5).
+#[derive(Debug, Clone)]
+pub struct Clearcoat {
+    /// How much of it there is, 0 to 1.
+    pub strength: f64,
+    /// Multiplies it, in red.
+    pub strength_texture: Option<Texture>,
+    /// The square root of its α.
+    pub roughness: f64,
+    /// Multiplies it, in green.
+    pub roughness_texture: Option<Texture>,
+    /// Its own relief: that of the base does not show in it.
+    pub relief: Option<NormalMap>,
+}
+
+/// What a surface is at one place, for light from anywhere.
+///
+/// Every response is linear in two spectra: `base(λ) b + tint(λ) t + w`, where b, t and w depend on directions alone.
+/// (A metal by its index multiplies w.)
+#[derive(Debug)]
+pub(crate) struct Lobes<'s> {
+    /// What the diffuse part, and a metal, have for a colour.
+    pub(crate) base: Option<Tint<'s>>,
+    /// What the dielectric's reflection has for a colour.
+    pub(crate) tint: Option<Tint<'s>>,
+    /// Whose reflectance the white part is multiplied with.
+    pub(crate) metal: Option<&'s Metal>,
+    /// The normal, relief included, on the side from which it is seen.
+    pub(crate) normal: DVec3,
+    metallic: f64,
+    // Share of the diffuse part.
+    diffuse: f64,
+    // Reflectances of the dielectric facing the light (before its tint) and at grazing; the tint's largest channel.
+    facing: f64,
+    grazing: f64,
+    tint_peak: f64,
+    /// Of the base.
+    pub(crate) roughness: f64,
+    coat: Option<Coat>,
+}
+
+#[derive(Debug)]
+struct Coat {
+    strength: f64,
+    roughness: f64,
+    normal: DVec3,
+}
+
+/// The weights of `base(λ) b + tint(λ) t + w`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Response {
+    pub(crate) base: f64,
+    pub(crate) tint: f64,
+    pub(crate) white: f64,
+    /// The cosine at which a metal reflects.
+    pub(crate) cosine: f64,
+}
+
+/// What is reflected as by a mirror.
+pub(crate) struct Reflection {
+    pub(crate) normal: DVec3,
+    pub(crate) roughness: f64,
+    pub(crate) response: Response,
+}
+
+/// Reflectance of the coat facing the light: index 1.5.
+const COAT: f64 = 0.04;
+
+/// What a dielectric of index `n` reflects of light that it faces: `((n - 1)/(n + 1))²`, all for 0 (glTF's infinity).
+fn facing(index: f64) -> f64 {
+    let ratio = (index - 1.0) / (index + 1.0);
+    ratio * ratio
+}
+
+/// Schlick's fifth power.
+fn fifth(cosine: f64) -> f64 {
+    let x = (1.0 - cosine).clamp(0.0, 1.0);
+    let squared = x * x;
+    squared * squared * x
+}
+
+impl<'s> Lobes<'s> {
+    fn plain(normal: DVec3) -> Self {
+        Self {
+            base: None,
+            tint: None,
+            metal: None,
+            normal,
+            metallic: 0.0,
+            diffuse: 0.0,
+            facing: 0.0,
+            grazing: 0.0,
+            tint_peak: 1.0,
+            roughness: 1.0,
+            coat: None,
+        }
+    }
+
+    /// What scatters light of lamps at a place; none for what does not.
+    pub(crate) fn of(surface: &'s Surface, look: &Look<'_>) -> Option<Self> {
+        let plain = || Self::plain(look.normal(surface.relief.as_ref()));
+        match &surface.scatter {
+            Scatter::Diffuse(paint) => {
+                Some(Self { base: Some(paint.at(look)), diffuse: 1.0, ..plain() })
+            }
+            Scatter::Metal(Polish { of, roughness }) => {
+                Some(Self { metal: Some(of), roughness: *roughness, ..plain() })
+            }
+            Scatter::Gloss(gloss) => Some(gloss.lobes(look, plain())),
+            Scatter::Glass(glass) => Some(glass.lobes(look, plain())),
+            Scatter::Absorb | Scatter::Mirror(_) | Scatter::Mixed(_) => None,
+        }
+    }
+
+    /// How light along `to_light` (unit, away from the surface) goes to `to_eye`: `f(λ)`, per steradian.
+    #[inline]
+    pub(crate) fn response(&self, to_light: DVec3, to_eye: DVec3) -> Response {
+        let mut response = Response { base: self.diffuse * FRAC_1_PI, ..Response::default() };
+        if self.metal.is_some() {
+            if let Some((height, cosine)) = highlight(self.alpha(), self.normal, to_light, to_eye) {
+                response = Response { white: height, cosine, ..response };
+            }
+            return response;
+        }
+        if self.grazing > 0.0 || self.metallic > 0.0 {
+            let half = (to_light + to_eye).normalize_or_zero();
+            let share = fifth(half.dot(to_eye));
+            let height = highlight(self.alpha(), self.normal, to_light, to_eye).map_or(0.0, |(d, _)| d);
+            self.reflected(&mut response, share, height);
+        }
+        if let Some(coat) = &self.coat {
+            let share = coat.strength * (COAT + (1.0 - COAT) * fifth(coat.normal.dot(to_eye)));
+            let shine = highlight(coat.roughness * coat.roughness, coat.normal, to_light, to_eye);
+            response = response.times(1.0 - share);
+            response.white += share * shine.map_or(0.0, |(height, _)| height);
+        }
+        response
+    }
+
+    /// Adds the base's reflection, with Schlick's share and the height of the lobe, and takes it from the diffuse part.
+    fn reflected(&self, response: &mut Response, share: f64, height: f64) {
+        let dielectric = 1.0 - self.metallic;
+        let brightest = (self.facing * self.tint_peak).min(1.0) * (1.0 - share) + self.grazing * share;
+        response.base *= dielectric * (1.0 - brightest.min(1.0));
+        response.base += self.metallic * height * (1.0 - share);
+        let facing = dielectric * self.facing * (1.0 - share) * height;
+        if self.tint.is_some() {
+            response.tint += facing;
+        } else {
+            response.white += facing;
+        }
+        response.white += (dielectric * self.grazing + self.metallic) * share * height;
+    }
+
+    fn alpha(&self) -> f64 {
+        self.roughness * self.roughness
+    }
+
+    /// What the surface makes of light that is the same from all sides: its diffuse part, and each of its reflections.
+    pub(crate) fn all_round(&self, to_eye: DVec3) -> (Response, [Option<Reflection>; 2]) {
+        let mut reflections = [None, None];
+        let cosine = self.normal.dot(to_eye).clamp(0.0, 1.0);
+        let mut diffuse = Response { base: self.diffuse, ..Response::default() };
+        let mut mirrored = Response::default();
+        if self.metal.is_some() {
+            mirrored = Response { white: 1.0, cosine, ..mirrored };
+        } else if self.grazing > 0.0 || self.metallic > 0.0 {
+            let share = fifth(cosine);
+            self.reflected(&mut diffuse, share, 0.0);
+            self.reflected(&mut mirrored, share, 1.0);
+        }
+        if let Some(coat) = &self.coat {
+            let share = coat.strength * (COAT + (1.0 - COAT) * fifth(coat.normal.dot(to_eye)));
+            diffuse = diffuse.times(1.0 - share);
+            mirrored = mirrored.times(1.0 - share);
+            let response = Response { white: share, ..Response::default() };
+            reflections[0] = Some(Reflection { normal: coat.normal, roughness: coat.roughness, response });
+        }
+        if mirrored.base + mirrored.tint + mirrored.white > 0.0 {
+            let (normal, roughness) = (self.normal, self.roughness);
+            reflections[1] = Some(Reflection { normal, roughness, response: mirrored });
+        }
+        (diffuse, reflections)
+    }
+
+    /// A response at one wavelength in the surface's rest frame.
+    pub(crate) fn at(&self, response: &Response, wavelength_nm: f64) -> f64 {
+        let of = |tint: &Option<Tint<'_>>| tint.as_ref().map_or(0.0, |tint| tint.at(wavelength_nm));
+        let mut sum = match self.metal {
+            Some(metal) => {
+                let (n, k) = metal.at(wavelength_nm);
+                response.white * fresnel::conductor(response.cosine, n, k)
+            }
+            None => response.white,
+        };
+        if response.base > 0.0 {
+            sum += response.base * of(&self.base);
+        }
+        if response.tint > 0.0 {
+            sum += response.tint * of(&self.tint);
+        }
+        sum
+    }
+}
+
+impl Response {
+    fn times(self, factor: f64) -> Self {
+        Self {
+            base: self.base * factor,
+            tint: self.tint * factor,
+            white: self.white * factor,
+            cosine: self.cosine,
+        }
+    }
+}
+
+/// One channel of a texture, if there is one; else 1.
+fn channel(texture: Option<&Texture>, channel: usize, look: &Look<'_>) -> f64 {
+    texture.map_or(1.0, |texture| f64::from(look.texel(texture)[channel]))
+}
+
+impl Gloss {
+    fn lobes<'s>(&'s self, look: &Look<'_>, plain: Lobes<'s>) -> Lobes<'s> {
+        let texel = self.metal_rough.as_ref().map_or([1.0; 4], |texture| look.texel(texture));
+        let specular = self.specular * channel(self.specular_texture.as_ref(), 3, look);
+        let facing = facing(self.index) * specular;
+        let tint_peak = match &self.specular_color {
+            Some(Paint::Colors(colors)) => colors.rgb(look).into_iter().fold(0.0, f64::max),
+            _ => 1.0,
+        };
+        let coat = self.clearcoat.as_ref().map(|coat| Coat {
+            strength: coat.strength * channel(coat.strength_texture.as_ref(), 0, look),
+            roughness: coat.roughness * channel(coat.roughness_texture.as_ref(), 1, look),
+            normal: look.normal(coat.relief.as_ref()),
+        });
+        Lobes {
+            base: Some(self.base.at(look)),
+            tint: self.specular_color.as_ref().map(|color| color.at(look)),
+            metallic: self.metallic * f64::from(texel[2]),
+            diffuse: 1.0,
+            facing,
+            grazing: specular,
+            tint_peak,
+            roughness: (self.roughness * f64::from(texel[1])).clamp(0.0, 1.0),
+            coat: coat.filter(|coat| coat.strength > 0.0),
+            ..plain
+        }
+    }
+}
+
+impl Glass {
+    /// A dielectric's highlight, and the diffuse part of what is not all glass. Reflections are traced elsewhere.
+    fn lobes<'s>(&'s self, look: &Look<'_>, plain: Lobes<'s>) -> Lobes<'s> {
+        let index = self.medium_index().at(589.0);
+        let amount = self.amount_at(look);
+        Lobes {
+            base: self.color.as_ref().filter(|_| amount < 1.0).map(|color| color.at(look)),
+            diffuse: 1.0 - amount,
+            facing: facing(index),
+            grazing: 1.0,
+            roughness: self.roughness,
+            ..plain
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! What surfaces do with light, each law in the surface's own rest frame.
+
+mod glass;
+mod gloss;
+mod microfacet;
+mod paint;
+mod veil;
+
+pub use glass::{Absorption, Glass, Medium};
+pub use gloss::{Clearcoat, Gloss, Polish};
+pub use microfacet::{fade, highlight};
+pub use paint::{Checker, Colors, Paint, Tint};
+pub use veil::{Coverage, NormalMap, Veil};
+
+use crate::course::Course;
+use crate::spectrum::{Metal, Source};
+use crate::texture::Texture;
+use crate::world::{Hit, Spot};
+use glam::{DVec2, DVec3};
+
+/// A surface.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    /// What it does with the light that falls on it.
+    pub scatter: Scatter,
+    /// What it emits; nothing for most.
+    pub glow: Option<Glow>,
+    /// Where it is not there; none where it is there all over.
+    pub veil: Option<Veil>,
+    /// Turns its normals.
+    pub relief: Option<NormalMap>,
+    /// Number of the fill light of its body.
+    pub ambient: u32,
+}
+
+/// What a surface does with the light that falls on it.
+#[derive(Debug, Clone)]
+pub enum Scatter {
+    /// Nothing.
+    Absorb,
+    /// Scatters alike to all sides (Lambert).
+    Diffuse(Paint),
+    /// Throws back as a perfect mirror.
+    Mirror(Paint),
+    /// A bare metal, by its measured index.
+    Metal(Polish<Metal>),
+    /// What glTF calls metallic-roughness: diffuse below a dielectric surface, or a metal of a colour.
+    Gloss(Box<Gloss>),
+    /// Lets light through.
+    Glass(Box<Glass>),
+    /// Different surfaces at different times of the body's own clock, or several at once: each with its share.
+    Mixed(Vec<(Course, Surface)>),
+}
+
+/// Emitted light, the same in all directions of the surface's rest frame.
+#[derive(Debug, Clone)]
+pub struct Glow {
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹.
+    pub radiance: Source,
+    /// Multiplies it by place; none for one all over.
+    pub paint: Option<Paint>,
+}
+
+impl Surface {
+    /// Solid all over, smooth, and dark of itself.
+    pub fn new(scatter: Scatter) -> Self {
+        Self { scatter, glow: None, veil: None, relief: None, ambient: 0 }
+    }
+
+    /// That shines of itself and does nothing else.
+    pub fn glowing(glow: Glow) -> Self {
+        Self { glow: Some(glow), ..Self::new(Scatter::Absorb) }
+    }
+
+    /// The surfaces of which it is made at one time or another, itself included.
+    pub fn all(&self) -> Vec<&Self> {
+        match &self.scatter {
+            Scatter::Mixed(parts) => {
+                std::iter::once(self).chain(parts.iter().flat_map(|(_, part)| part.all())).collect()
+            }
+            _ => vec![self],
+        }
+    }
+
+    /// Whether light may get through it.
+    pub fn lets_through(&self) -> bool {
+        let lets = |part: &&Self| part.veil.is_some() || matches!(part.scatter, Scatter::Glass(_));
+        self.all().iter().any(lets)
+    }
+}
+
+/// A hit as its surface is asked about it.
+#[derive(Debug, Clone, Copy)]
+pub struct Look<'h> {
+    /// The hit.
+    pub hit: &'h Hit<'h>,
+    /// The place.
+    pub spot: &'h Spot,
+    /// Half the width there, at right angles to the ray, of what one sample sees; metres.
+    pub radius: f64,
+}
+
+impl Look<'_> {
+    /// The linear RGBA of a texture.
+    pub fn texel(&self, texture: &Texture) -> [f32; 4] {
+        let uv = self.hit.uv(texture.uv_set);
+        match self.footprint(texture.uv_set) {
+            Some(footprint) => texture.over(uv, &footprint),
+            None => texture.rgba(uv),
+        }
+    }
+
+    /// What one sample sees of the surface, in texture coordinates.
+    pub fn footprint(&self, uv_set: u8) -> Option<crate::texture::Footprint> {
+        let [u, v] = self.hit.uv_of(uv_set, self.axes()?)?;
+        Some(crate::texture::Footprint { u, v })
+    }
+
+    /// The half axes on the surface of what one sample sees: across the sight, and along it (longer by the slant).
+    fn axes(&self) -> Option<[DVec3; 2]> {
+        if self.radius <= 0.0 {
+            return None;
+        }
+        let (k, normal) = (self.spot.k.x, self.spot.facet_normal);
+        let cosine = (k.dot(normal) / k.length()).abs().max(1e-6);
+        let along = k - normal * k.dot(normal);
+        let along = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        Some([normal.cross(along) * self.radius, along * (self.radius / cosine)])
+    }
+
+    /// The normal with the relief of a map, on the side from which the surface is seen.
+    pub fn normal(&self, relief: Option<&NormalMap>) -> DVec3 {
+        relief.and_then(|relief| relief.normal(self)).unwrap_or(self.spot.normal)
+    }
+
+    /// Texture coordinates of the first set.
+    pub fn uv(&self) -> DVec2 {
+        self.hit.uv(0)
+    }
+}
+
+/// The reverse of a mirror's law: the light that leaves along `leaving` arrived along this vector.
+///
+/// Both are the directions in which the light moves, of any length, which is kept.
+pub fn before_mirror(leaving: DVec3, normal: DVec3) -> DVec3 {
+    leaving - normal * (2.0 * leaving.dot(normal))
+}

@@ -1,0 +1,158 @@
+//! The light of lamps on a surface.
+
+use super::{Gathered, Lit, Seen, scaled};
+use crate::lamp::{Connection, Lamp};
+use crate::surface::{Lobes, Response, Surface};
+use crate::spectrum::{Metal, Source};
+
+/// Light on its way from lamps to the observer, before the surface's own spectra.
+struct Arriving<const N: usize> {
+    base: [f64; N],
+    tint: [f64; N],
+    white: [f64; N],
+    // Whether there is anything in tint and white.
+    reflected: bool,
+}
+
+impl Lit<'_> {
+    /// Light of the lamps, and of the fill light, that a surface throws back.
+    pub(super) fn add_lamps<const N: usize>(
+        &self,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let Some(lobes) = Lobes::of(surface, &seen.look()) else { return };
+        let fill = Response { base: 1.0, ..Response::default() };
+        self.add_lobes(&lobes, fill, surface, seen, gathered);
+    }
+
+    /// The same for surfaces whose response is known; `fill`: what it makes of the same radiance from all sides.
+    pub(super) fn add_lobes<const N: usize>(
+        &self,
+        lobes: &Lobes<'_>,
+        fill: Response,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let mut arriving = Arriving { base: [0.0; N], tint: [0.0; N], white: [0.0; N], reflected: false };
+        if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
+            self.add_fill(ambient, lobes, &fill, seen, &mut arriving, gathered);
+        }
+        let to_eye = seen.to_eye();
+        for lamp in self.lamps {
+            let Some(connection) = lamp.connect(seen.departure) else { continue };
+            let k = seen.hit.rest.rest_from_lab * connection.ray.k;
+            // The cosine is the receiver's, in its own rest frame.
+            let to_light = -k.x / k.t;
+            let cosine = to_light.dot(lobes.normal);
+            let above = to_light.dot(seen.spot.facet_normal);
+            if cosine <= 0.0 || above <= 0.0 {
+                continue;
+            }
+            let Some(passage) = self.passage(&connection) else { continue };
+            let response = lobes.response(to_light, to_eye);
+            let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
+            self.add_lamp(&light, lobes, &response, seen, &mut arriving, gathered);
+        }
+        let base = lobes.base.as_ref().map_or([0.0; N], |base| base.at_each(&seen.nm));
+        let mut radiance = arriving.base;
+        for (value, part) in radiance.iter_mut().zip(base) {
+            *value *= part;
+        }
+        if arriving.reflected {
+            let tint = lobes.tint.as_ref().map_or([0.0; N], |tint| tint.at_each(&seen.nm));
+            for (i, value) in radiance.iter_mut().enumerate() {
+                *value += arriving.tint[i] * tint[i] + arriving.white[i];
+            }
+        }
+        self.add(&radiance, seen, gathered);
+    }
+
+    fn add_fill<const N: usize>(
+        &self,
+        ambient: &Source,
+        lobes: &Lobes<'_>,
+        fill: &Response,
+        seen: &Seen<'_, N>,
+        arriving: &mut Arriving<N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, lobes.metal, &seen.nm);
+        for line in ambient.lines() {
+            let nm = line.wavelength_nm;
+            self.add_line(line, nm, line.power * lobes.at(fill, nm), seen, gathered);
+        }
+    }
+
+    /// One lamp's light on the surface: `E(λ) = D³ I(Dλ) cosθ / r²`, with D = surface's over lamp's frequency.
+    fn add_lamp<const N: usize>(
+        &self,
+        light: &FromLamp<'_>,
+        lobes: &Lobes<'_>,
+        response: &Response,
+        seen: &Seen<'_, N>,
+        arriving: &mut Arriving<N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let doppler = light.omega / light.connection.omega;
+        let shift = self.effects.shift(doppler);
+        let factor = self.effects.gain(doppler, 3)
+            * light.connection.dilution
+            * light.cosine
+            * light.passage.clear;
+        let at_lamp = scaled(&seen.nm, shift);
+        for (course, source) in &light.lamp.light {
+            let factor = factor * course.at(light.connection.emitted);
+            if factor == 0.0 {
+                continue;
+            }
+            let mut intensity = source.at_each(&at_lamp);
+            self.filter(light.passage, light.omega, seen.shift, &seen.nm, &mut intensity);
+            arriving.add(&intensity, factor, response, lobes.metal, &seen.nm);
+            for line in source.lines() {
+                // A line's power is integrated over the wavelength, which shrinks by the shift.
+                let wavelength_nm = line.wavelength_nm / shift;
+                let mut passes = [1.0];
+                self.filter(light.passage, light.omega, seen.shift, &[wavelength_nm], &mut passes);
+                let power = line.power * factor / shift * passes[0] * lobes.at(response, wavelength_nm);
+                self.add_line(line, wavelength_nm, power, seen, gathered);
+            }
+        }
+    }
+}
+
+/// A lamp's light where it arrives.
+struct FromLamp<'l> {
+    lamp: &'l Lamp,
+    connection: &'l Connection,
+    // Its frequency at the surface, in the units of the connection.
+    omega: f64,
+    cosine: f64,
+    passage: &'l super::passage::Passage,
+}
+
+impl<const N: usize> Arriving<N> {
+    #[inline]
+    fn add(
+        &mut self,
+        light: &[f64; N],
+        factor: f64,
+        response: &Response,
+        metal: Option<&Metal>,
+        nm: &[f64; N],
+    ) {
+        let base = factor * response.base;
+        for (sum, value) in self.base.iter_mut().zip(light) {
+            *sum += base * value;
+        }
+        if response.tint > 0.0 || response.white > 0.0 {
+            self.reflected = true;
+            for (i, value) in light.iter().enumerate() {
+                self.tint[i] += factor * response.tint * value;
+                self.white[i] += factor * response.white * value * metal.map_or(1.0, |metal| metal.reflects(response.cosine, nm[i]));
+            }
+        }
+    }
+}

@@ -1,0 +1,358 @@
+//! Faces of glass: what is reflected and what is let through.
+//!
+//! All is done in the rest frame of the face, where the frequency and the wave vector's part along the face are the same on
+//! both sides. What the wave vector is beyond follows from the dispersion relation of the medium there, which may move
+//! relative to the face: with U its four-velocity,
+//!
+//! ~~~text
+//! k·k + (n² - 1)(k·U)² = 0
+//! ~~~
+//!
+//! Fresnel's equations are those of media at rest with the face. Light is without polarisation after each face.
+
+use super::medium::{Inside, Light4, in_medium};
+use super::{Gathered, Leg, Lit, Path, Seen, Step};
+use crate::fresnel;
+use crate::spacetime::{FourVector, Rest, SightRay};
+use crate::surface::{Glass, Lobes, Medium, Response, Surface};
+use glam::DVec3;
+
+/// Surfaces of bodies whose distance is below this part of their size touch.
+const TOUCHING: f64 = 2e-7;
+
+/// A face between two media, one of which may be none.
+struct Face<'m> {
+    // Before the light leaves through the face, as rays go (the observer's side), and beyond it.
+    near: Option<&'m Medium>,
+    far: Option<&'m Medium>,
+    // On the observer's side.
+    normal: DVec3,
+    facet_normal: DVec3,
+    // The light that leaves toward the observer, in the rest frame of the face.
+    leaving: FourVector<Rest>,
+}
+
+/// Light of one wavelength at a face.
+struct AtFace {
+    reflectance: f64,
+    // What arrives from beyond, unless all is reflected.
+    refracted: Option<Light4>,
+    // What is seen of its radiance: (1 - R)(n/n')².
+    part: f64,
+}
+
+/// One solution of the dispersion relation.
+#[derive(Clone, Copy)]
+struct Wave {
+    at_face: FourVector<Rest>,
+    light: Light4,
+    // In the medium's own frame.
+    index: f64,
+}
+
+impl Lit<'_> {
+    pub(super) fn add_glass<const N: usize>(
+        &self,
+        glass: &Glass,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let look = seen.look();
+        let amount = glass.amount_at(&look);
+        if amount < 1.0 || glass.roughness > 0.0 {
+            self.add_coat(glass, surface, seen, gathered);
+        }
+        if seen.path.depth == 0 || amount <= 0.0 && glass.roughness >= 0.5 {
+            return;
+        }
+        if glass.thin {
+            self.add_pane(glass, amount, surface, seen, gathered);
+        } else {
+            self.add_body(glass, amount, surface, seen, gathered);
+        }
+    }
+
+    /// Highlights of lamps, and the diffuse part of what is not all glass.
+    fn add_coat<const N: usize>(
+        &self,
+        glass: &Glass,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let Some(lobes) = Lobes::of(surface, &seen.look()) else { return };
+        let cosine = lobes.normal.dot(seen.to_eye()).clamp(0.0, 1.0);
+        let through = 1.0 - fresnel::dielectric(cosine, glass.index.at(589.0));
+        let diffuse = 1.0 - glass.amount_at(&seen.look());
+        let fill = Response { base: diffuse * through, ..Response::default() };
+        self.add_lobes(&lobes, fill, surface, seen, gathered);
+    }
+
+    /// A pane without thickness: one reflection, and the rest straight on.
+    fn add_pane<const N: usize>(
+        &self,
+        glass: &Glass,
+        amount: f64,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let look = seen.look();
+        let normal = look.normal(surface.relief.as_ref());
+        let cosine = normal.dot(seen.to_eye()).clamp(0.0, 1.0);
+        let reflectance = |nm: f64| fresnel::dielectric(cosine, glass.index.at(nm));
+        let step = Step { before: seen.path.steps, part: &reflectance, shift: seen.shift };
+        let path = seen.path.filtered(&seen.nm.map(reflectance), &step);
+        self.reflect(normal, &path, seen, gathered);
+
+        let tint = glass.color.as_ref().map(|color| color.at(&look));
+        let part = |nm: f64| {
+            let color = tint.as_ref().map_or(1.0, |tint| tint.at(nm));
+            amount * color * (1.0 - reflectance(nm))
+        };
+        let step = Step { before: seen.path.steps, part: &part, shift: seen.shift };
+        let path = seen.path.filtered(&seen.nm.map(part), &step);
+        if !path.is_faint() {
+            let path = Path { depth: path.depth - 1, way: seen.way, ..path };
+            let event = seen.spot.beyond(seen.hit.rest, 0.0);
+            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
+            self.gather(&leg, seen.lanes, &path, gathered);
+        }
+    }
+
+    /// The face of a body of glass.
+    fn add_body<const N: usize>(
+        &self,
+        glass: &Glass,
+        amount: f64,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let (inside, further) = self.beyond(glass.medium, seen);
+        let event = seen.spot.beyond(seen.hit.rest, further);
+        let (near, far) = (self.medium_number(&seen.leg.inside), self.medium_number(&inside));
+        if near == far {
+            // Within something else that decides: nothing happens here.
+            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, wave: seen.leg.wave, inside };
+            let path = Path { depth: seen.path.depth - 1, way: seen.way, ..*seen.path };
+            return self.gather(&leg, seen.lanes, &path, gathered);
+        }
+        let look = seen.look();
+        let face = self.face(&inside, look.normal(surface.relief.as_ref()), seen);
+        let shift = seen.shift;
+        let reflectance = |nm: f64| self.at_face(&face, seen, nm * shift).reflectance;
+        let tint = glass.color.as_ref().map(|color| color.at(&look));
+        let part = |nm: f64| {
+            let color = tint.as_ref().map_or(1.0, |tint| tint.at(nm).max(0.0).sqrt());
+            amount * color * self.at_face(&face, seen, nm * shift).part
+        };
+        let parts = |of: &dyn Fn(f64) -> f64, even: bool| {
+            if even { [of(seen.nm[0]); N] } else { seen.nm.map(of) }
+        };
+        let disperses = |medium: Option<&Medium>| medium.is_some_and(|medium| medium.index.disperses());
+        let even = !disperses(face.near) && !disperses(face.far);
+
+        let step = Step { before: seen.path.steps, part: &reflectance, shift };
+        let path = seen.path.filtered(&parts(&reflectance, even), &step);
+        self.reflect(face.normal, &path, seen, gathered);
+
+        let step = Step { before: seen.path.steps, part: &part, shift };
+        let onward = |light: Light4| Leg {
+            ray: SightRay { event, k: light.step },
+            wave: light.wave,
+            inside,
+        };
+        let path = seen.path.filtered(&parts(&part, even && tint.is_none()), &step);
+        let path = Path { depth: path.depth - 1, way: seen.way, ..path };
+        if path.is_faint() {
+            return;
+        }
+        if even || N == 1 {
+            if let Some(light) = self.at_face(&face, seen, seen.lanes[0]).refracted {
+                self.gather(&onward(light), seen.lanes, &path, gathered);
+            }
+        } else {
+            self.split(seen.lanes, &path, gathered, &mut |lane, path, gathered| {
+                if let Some(light) = self.at_face(&face, seen, lane).refracted {
+                    self.gather(&onward(light), &[lane], path, gathered);
+                }
+            });
+        }
+    }
+
+    /// What is beyond a face, and how far the last of the surfaces is that touch it (m, rest frame).
+    fn beyond<const N: usize>(&self, medium: u32, seen: &Seen<'_, N>) -> (Inside, f64) {
+        let toggled = |inside: Inside, medium: u32, outside: bool| {
+            if outside { inside.with(medium) } else { inside.without(medium) }
+        };
+        let alone = (toggled(seen.leg.inside, medium, seen.spot.outside), 0.0);
+        if self.media.len() < 2 {
+            return alone;
+        }
+        let gap = TOUCHING * seen.spot.size;
+        let reach = gap / seen.spot.k.x.length();
+        let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
+        let mut crossed: Vec<(u32, bool)> = Vec::new();
+        self.world.until(&ray, 2.0 * reach, |hit| {
+            let medium = self.surfaces.get(hit.surface()).and_then(Surface::medium);
+            if let Some(medium) = medium {
+                crossed.push((medium, hit.spot(&ray).outside));
+            }
+            false
+        });
+        crossed.sort_unstable();
+        crossed.dedup();
+        if crossed.iter().all(|(other, _)| *other == medium) {
+            return alone;
+        }
+        // Left first, then entered: glass against water is no gap and no overlap.
+        let after = crossed.iter().fold(seen.leg.inside, |inside, &(m, outside)| toggled(inside, m, outside));
+        (after, 2.0 * gap)
+    }
+
+    fn face<const N: usize>(&self, inside: &Inside, normal: DVec3, seen: &Seen<'_, N>) -> Face<'_> {
+        let leaving = if seen.leg.inside.is_empty() {
+            seen.spot.k
+        } else {
+            seen.hit.rest.rest_from_lab * seen.leg.wave
+        };
+        let facet_normal = seen.spot.facet_normal;
+        let normal = if leaving.x.dot(normal) > 0.0 { normal } else { facet_normal };
+        let (near, far) = (self.medium(&seen.leg.inside), self.medium(inside));
+        Face { near, far, normal, facet_normal, leaving }
+    }
+
+    /// What light of one wavelength (the observer's) does at a face.
+    fn at_face<const N: usize>(&self, face: &Face<'_>, seen: &Seen<'_, N>, lane: f64) -> AtFace {
+        let on = |normal: DVec3| self.at_face_of(face, normal, seen, lane);
+        let at = on(face.normal);
+        let through = |at: &AtFace| {
+            at.refracted.is_none_or(|light| {
+                (seen.hit.rest.rest_from_lab * light.step).x.dot(face.facet_normal) > 0.0
+            })
+        };
+        // The interpolated normal would send the ray back out: the facet's own does not.
+        if through(&at) { at } else { on(face.facet_normal) }
+    }
+
+    fn at_face_of<const N: usize>(
+        &self,
+        face: &Face<'_>,
+        normal: DVec3,
+        seen: &Seen<'_, N>,
+        lane: f64,
+    ) -> AtFace {
+        let near = face.leaving.x.dot(normal).abs();
+        let all = AtFace { reflectance: 1.0, refracted: None, part: 0.0 };
+        let Some(far) = self.wave(face.far, face.leaving, normal, 1.0, seen, lane) else { return all };
+        let q = far.at_face.x.dot(normal).abs();
+        let squared = |k: FourVector<Rest>| k.x.length_squared() / (k.t * k.t);
+        let (n1, n2) = (squared(face.leaving), squared(far.at_face));
+        let s = (near - q) / (near + q);
+        let p = (n2 * near - n1 * q) / (n2 * near + n1 * q);
+        let reflectance = (0.5 * (s * s + p * p)).min(1.0);
+        let index = face.near.map_or(1.0, |medium| {
+            let (nm, _) = self.local(medium, seen.leg.wave, lane);
+            medium.index.at(nm)
+        });
+        let ratio = index / far.index;
+        AtFace { reflectance, refracted: Some(far.light), part: (1.0 - reflectance) * ratio * ratio }
+    }
+
+    /// The light in a medium that goes with `leaving` at a face: away from it along the normal for `sense` 1, toward it
+    /// for -1; none if it cannot pass.
+    fn wave<const N: usize>(
+        &self,
+        medium: Option<&Medium>,
+        leaving: FourVector<Rest>,
+        normal: DVec3,
+        sense: f64,
+        seen: &Seen<'_, N>,
+        lane: f64,
+    ) -> Option<Wave> {
+        let along = leaving.x - normal * leaving.x.dot(normal);
+        let omega = leaving.t;
+        let rest = &seen.hit.rest.rest_from_lab;
+        let Some(medium) = medium else {
+            let squared = omega * omega - along.length_squared();
+            let wave = FourVector::new(omega, along + normal * (sense * positive_root(squared)?));
+            let k = rest.boost().inverse() * wave;
+            return Some(Wave { at_face: wave, light: Light4 { wave: k, step: k }, index: 1.0 });
+        };
+        if medium.rest_from_lab.velocity() == rest.boost().velocity() {
+            let nm = lane / self.effects.shift(omega);
+            let index = medium.index.at(nm);
+            let squared = index * index * omega * omega - along.length_squared();
+            let x = along + normal * (sense * positive_root(squared)?);
+            let light = in_medium(medium, x / x.length(), omega, nm);
+            return Some(Wave { at_face: FourVector::new(omega, x), light, index });
+        }
+        self.wave_in_moving(medium, (omega, along), normal, sense, seen, lane)
+    }
+
+    /// The same in a medium that moves relative to the face: a quadratic in the normal part of the wave vector.
+    fn wave_in_moving<const N: usize>(
+        &self,
+        medium: &Medium,
+        (omega, along): (f64, DVec3),
+        normal: DVec3,
+        sense: f64,
+        seen: &Seen<'_, N>,
+        lane: f64,
+    ) -> Option<Wave> {
+        let rest = seen.hit.rest.rest_from_lab.boost();
+        let moving: FourVector<Rest> =
+            rest * (medium.rest_from_lab.inverse() * FourVector::new(1.0, DVec3::ZERO));
+        let (a, b) = (omega * moving.t - along.dot(moving.x), normal.dot(moving.x));
+        let mut nm = lane / self.effects.shift(a);
+        let mut found = None;
+        // The index depends on the frequency in the medium, and that on the solution.
+        for _ in 0..8 {
+            let index = medium.index.at(nm);
+            let c = index * index - 1.0;
+            let (p, q, r) =
+                (c * b * b - 1.0, c * a * b, c * a * a + omega * omega - along.length_squared());
+            let root = positive_root(q * q - p * r)?;
+            let solutions = [(q + root) / p, (q - root) / p].map(|normal_part| {
+                let at_face = FourVector::<Rest>::new(omega, along + normal * normal_part);
+                let inside: FourVector<Rest> = medium.rest_from_lab * (rest.inverse() * at_face);
+                let light = in_medium(medium, inside.x / inside.x.length(), inside.t, nm);
+                (Wave { at_face, light, index }, inside.t)
+            });
+            let right = |(wave, frequency): &&(Wave, f64)| {
+                *frequency > 0.0 && (rest * wave.light.step).x.dot(normal) * sense > 0.0
+            };
+            let (wave, frequency) = solutions.iter().find(right)?;
+            found = Some(*wave);
+            let next = lane / self.effects.shift(*frequency);
+            if !medium.index.disperses() || (next - nm).abs() <= 1e-12 * nm {
+                break;
+            }
+            nm = next;
+        }
+        found
+    }
+
+    /// A ray that is reflected within a medium, toward the face it came from.
+    pub(super) fn reflected_inside<const N: usize>(
+        &self,
+        normal: DVec3,
+        seen: &Seen<'_, N>,
+    ) -> Option<Leg> {
+        let leaving = seen.hit.rest.rest_from_lab * seen.leg.wave;
+        let medium = self.medium(&seen.leg.inside);
+        let arriving = |normal| self.wave(medium, leaving, normal, -1.0, seen, seen.lanes[0]);
+        let toward = |wave: &Wave| {
+            (seen.hit.rest.rest_from_lab * wave.light.step).x.dot(seen.spot.facet_normal) < 0.0
+        };
+        let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.spot.facet_normal))?;
+        let ray = SightRay { event: seen.departure, k: wave.light.step };
+        Some(Leg { ray, wave: wave.light.wave, inside: seen.leg.inside })
+    }
+}
+
+fn positive_root(squared: f64) -> Option<f64> {
+    (squared >= 0.0).then(|| squared.sqrt())
+}

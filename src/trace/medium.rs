@@ -1,0 +1,162 @@
+//! Inside glass and water: which medium light is in, and what it does on the way.
+
+use super::{Gathered, Leg, Lit, Path, Seen, Step};
+use crate::spacetime::{FourVector, Lab, Rest, SightRay};
+use crate::surface::{Medium, Surface};
+use glam::DVec3;
+
+/// The most bodies of glass within one another.
+const MOST: usize = 6;
+
+/// The bodies of glass that a ray is inside of.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Inside {
+    media: [u32; MOST],
+    count: u8,
+}
+
+impl Inside {
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    pub(super) fn all(&self) -> &[u32] {
+        &self.media[..usize::from(self.count)]
+    }
+
+    /// With one more; more than can be kept are forgotten.
+    pub(super) fn with(mut self, medium: u32) -> Self {
+        if !self.all().contains(&medium) && usize::from(self.count) < MOST {
+            self.media[usize::from(self.count)] = medium;
+            self.count += 1;
+        }
+        self
+    }
+
+    pub(super) fn without(self, medium: u32) -> Self {
+        let others = self.all().iter().filter(|other| **other != medium);
+        others.fold(Self::default(), |inside, other| inside.with(*other))
+    }
+}
+
+/// Light in a medium: its wave vector, and what its events step by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Light4 {
+    pub(super) wave: FourVector<Lab>,
+    pub(super) step: FourVector<Lab>,
+}
+
+/// Light along `wave` in a medium at rest: the step is `(n_g, direction)` times the frequency.
+pub(super) fn in_medium(medium: &Medium, direction: DVec3, omega: f64, nm: f64) -> Light4 {
+    let lab_from_rest = medium.rest_from_lab.inverse();
+    let (n, group) = (medium.index.at(nm), medium.index.group(nm));
+    let wave = FourVector::<Rest>::new(omega, direction * (omega * n));
+    let step = FourVector::<Rest>::new(omega * group, direction * omega);
+    Light4 { wave: lab_from_rest * wave, step: lab_from_rest * step }
+}
+
+impl Lit<'_> {
+    /// The medium in which a ray is: of those that overlap, that of the smallest body.
+    pub(super) fn medium(&self, inside: &Inside) -> Option<&Medium> {
+        let media = inside.all().iter().filter_map(|medium| self.media.get(*medium as usize));
+        media.min_by(|a, b| a.volume.total_cmp(&b.volume))
+    }
+
+    /// The number of the medium in which a ray is.
+    pub(super) fn medium_number(&self, inside: &Inside) -> Option<u32> {
+        let volume = |medium: u32| self.media.get(medium as usize).map_or(f64::INFINITY, |m| m.volume);
+        inside.all().iter().copied().min_by(|a, b| volume(*a).total_cmp(&volume(*b)))
+    }
+
+    /// Wavelength in a medium of light that the observer sees at one, and the frequency there.
+    pub(super) fn local(&self, medium: &Medium, wave: FourVector, lane: f64) -> (f64, f64) {
+        let omega = (medium.rest_from_lab * wave).t;
+        (lane / self.effects.shift(omega), omega)
+    }
+
+    /// How far s widens a cone in a medium: angles are smaller there by the index.
+    pub(super) fn slowed(&self, leg: &Leg, lane: f64, s: f64) -> f64 {
+        let Some(medium) = self.medium(&leg.inside) else { return s };
+        let (nm, _) = self.local(medium, leg.wave, lane);
+        s / medium.index.at(nm)
+    }
+
+    /// The wave vector with which light leaves a medium that has no end.
+    pub(super) fn escaped(&self, leg: &Leg) -> FourVector {
+        if leg.inside.is_empty() {
+            return leg.wave;
+        }
+        let direction = leg.ray.k.x.normalize_or(DVec3::Z);
+        FourVector::new(leg.wave.t, direction * leg.wave.t)
+    }
+
+    /// A sight ray that may begin within glass: there the camera looks out of a bubble without size, and `L/n²` is what
+    /// it sees.
+    pub(super) fn start_inside<const N: usize>(
+        &self,
+        leg: &Leg,
+        lanes: &[f64; N],
+        path: &Path<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let inside = self.inside_at(&leg.ray);
+        let Some(medium) = self.medium(&inside) else { return self.gather(leg, lanes, path, gathered) };
+        let null = medium.rest_from_lab * leg.wave;
+        let start = |nm: f64| {
+            let light = in_medium(medium, null.x / null.x.length(), null.t, nm / self.effects.shift(null.t));
+            let ray = SightRay { event: leg.ray.event, k: light.step };
+            Leg { ray, wave: light.wave, inside }
+        };
+        let part = |nm: f64| 1.0 / (medium.index.at(nm) * medium.index.at(nm));
+        let step = Step { before: path.steps, part: &part, shift: self.effects.shift(null.t) };
+        if medium.index.disperses() && N > 1 {
+            let path = Path { steps: Some(&step), ..*path };
+            self.split(lanes, &path, gathered, &mut |lane, path, gathered| {
+                self.gather(&start(lane), &[lane], path, gathered);
+            });
+        } else {
+            let shift = step.shift;
+            let parts = lanes.map(|lane| part(lane / shift));
+            self.gather(&start(lanes[0]), lanes, &path.filtered(&parts, &step), gathered);
+        }
+    }
+
+    /// The bodies of glass around the start of a ray: those whose nearest surface is seen from inside.
+    fn inside_at(&self, ray: &SightRay) -> Inside {
+        let mut nearest: Vec<(u32, f64, bool)> = Vec::new();
+        self.world.until(ray, f64::INFINITY, |hit| {
+            let medium = self.surfaces.get(hit.surface()).and_then(Surface::medium);
+            let Some(medium) = medium else { return false };
+            let outside = hit.spot(ray).outside;
+            match nearest.iter_mut().find(|(other, ..)| *other == medium) {
+                Some(known) if known.1 <= hit.s => {}
+                Some(known) => *known = (medium, hit.s, outside),
+                None => nearest.push((medium, hit.s, outside)),
+            }
+            false
+        });
+        nearest.sort_unstable_by_key(|(medium, ..)| *medium);
+        let around = nearest.iter().filter(|(.., outside)| !outside);
+        around.fold(Inside::default(), |inside, (medium, ..)| inside.with(*medium))
+    }
+
+    /// A surface seen through the medium before it: what that absorbs is taken first.
+    pub(super) fn meet_through_medium<const N: usize>(
+        &self,
+        surface: &Surface,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let absorbing = self.medium(&seen.leg.inside).and_then(|m| Some((m, m.absorption.as_ref()?)));
+        let Some((medium, absorption)) = absorbing else { return self.meet(surface, seen, gathered) };
+        let shift = self.effects.shift((medium.rest_from_lab * seen.leg.wave).t);
+        let way = (medium.rest_from_lab * seen.leg.ray.k).x.length() * seen.hit.s;
+        let part = |nm: f64| absorption.after(way, nm);
+        let step = Step { before: seen.path.steps, part: &part, shift };
+        let parts = seen.lanes.map(|lane| part(lane / shift));
+        let path = seen.path.filtered(&parts, &step);
+        if !path.is_faint() {
+            self.meet(surface, &seen.through(&path), gathered);
+        }
+    }
+}

@@ -1,0 +1,441 @@
+//! The light loop: what arrives along a sight ray.
+//!
+//! Rays go back in time from the camera. Radiance is gathered in the observer's terms: a surface that is asked
+//! at the observer's wavelength λ answers at λ/ω, where ω is the light's frequency there in units of what
+//! the observer sees, and what it answers is multiplied by ω⁻⁵ once.
+//!
+//! `mod.rs` follows a ray to what it meets; `direct.rs` is the light of lamps, `passage.rs` what becomes of it on
+//! the way to a surface; `mirror.rs` and `glass.rs` send rays on; `split.rs` parts the wavelengths where an index
+//! depends on them.
+
+mod direct;
+mod glass;
+mod medium;
+mod mirror;
+mod passage;
+mod split;
+
+use crate::lamp::Lamp;
+use crate::spacetime::{Doppler, Event, FourVector, SightRay};
+use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
+use crate::surface::{Glow, Look, Medium, Scatter, Surface};
+use crate::surroundings::Surroundings;
+use crate::world::{Hit, Spot, World};
+use glam::DVec3;
+use medium::Inside;
+
+/// What of relativity is shown: each factor as it is, or set to one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effects {
+    /// Directions are those of the moving observer.
+    pub aberration: bool,
+    /// Wavelengths are shifted.
+    pub doppler: bool,
+    /// Radiance changes by ω⁻⁵, irradiance by D³.
+    pub searchlight: bool,
+}
+
+impl Effects {
+    /// Nature's.
+    pub const ALL: Self = Self { aberration: true, doppler: true, searchlight: true };
+
+    /// By what wavelengths are divided on the way to where the light has the frequency `omega`.
+    #[inline]
+    fn shift(self, omega: f64) -> f64 {
+        if self.doppler { omega } else { 1.0 }
+    }
+
+    /// The integer power of a frequency ratio by which light is brighter.
+    #[inline]
+    fn gain(self, ratio: f64, power: i32) -> f64 {
+        if self.searchlight { ratio.powi(power) } else { 1.0 }
+    }
+}
+
+/// All that light needs to know.
+#[derive(Debug)]
+pub struct Lit<'a> {
+    /// The bodies.
+    pub world: &'a World,
+    /// Surfaces, by the numbers that hits give.
+    pub surfaces: &'a [Surface],
+    /// What fills closed bodies of glass, by the numbers that their surfaces give.
+    pub media: &'a [Medium],
+    /// Lamps.
+    pub lamps: &'a [Lamp],
+    /// Radiances that fill rest frames alike from all sides, by the numbers that surfaces give.
+    pub ambient: &'a [Source],
+    /// What is beyond all bodies.
+    pub surroundings: &'a [Surroundings],
+    /// Whether any surface lets light through.
+    pub see_through: bool,
+    /// What is shown.
+    pub effects: Effects,
+    /// How many mirrors and faces of glass one after another are followed.
+    pub depth: u32,
+}
+
+/// Light as the observer sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct Light<const N: usize> {
+    /// Spectral radiance at the observer's wavelengths, W m⁻² sr⁻¹ nm⁻¹.
+    pub radiance: [f64; N],
+    /// XYZ (cd/m²) of what no wavelength samples: spectral lines, and the edges of colours that glass has parted.
+    pub lines: DVec3,
+}
+
+/// What a picture can show of a sight ray's first hit beside its light.
+#[derive(Debug, Clone, Copy)]
+pub struct First {
+    /// Frequency seen over frequency at the body.
+    pub doppler: Doppler,
+    /// The event at which the light left the body.
+    pub emission: Event,
+    /// The number of the body.
+    pub body: u32,
+}
+
+/// How wide a sight ray is.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Cone {
+    /// Half the angle between neighbouring samples, in the frame in which the ray's frequency is 1.
+    pub sample: f64,
+    /// The same between pixels: points of light are spread as wide.
+    pub pixel: f64,
+}
+
+/// The most surfaces with holes that are looked through one after another.
+const MOST_VEILS: u32 = 100;
+/// Rays of which the observer gets less than this part are not followed.
+const FAINTEST: f64 = 1e-6;
+
+/// Part of a sight ray, from one surface to the next.
+#[derive(Debug, Clone, Copy)]
+struct Leg {
+    // The events of the light are `event - s k`. In vacuum k is its wave vector; in a medium it is slower.
+    ray: SightRay,
+    // The wave vector.
+    wave: FourVector,
+    inside: Inside,
+}
+
+/// What lies between the observer and where the light is now.
+#[derive(Clone, Copy)]
+struct Path<'p, const N: usize> {
+    // What the observer still gets of the light, at its wavelengths.
+    throughput: [f64; N],
+    // The same, for lines: step by step.
+    steps: Option<&'p Step<'p>>,
+    depth: u32,
+    veils: u32,
+    // The sum of s so far, by which the cone has widened.
+    way: f64,
+    cone: Cone,
+}
+
+/// Something that takes its part of the light, by wavelength where it stands.
+struct Step<'p> {
+    before: Option<&'p Self>,
+    part: &'p dyn Fn(f64) -> f64,
+    shift: f64,
+}
+
+impl Step<'_> {
+    /// What the observer gets of light that it sees at one wavelength.
+    fn throughput(&self, wavelength_nm: f64) -> f64 {
+        let before = self.before.map_or(1.0, |step| step.throughput(wavelength_nm));
+        before * (self.part)(wavelength_nm / self.shift)
+    }
+}
+
+impl<'p, const N: usize> Path<'p, N> {
+    /// With the same part taken of all wavelengths.
+    fn dimmed(&self, part: f64, step: &'p Step<'p>) -> Self {
+        Self { throughput: self.throughput.map(|value| value * part), steps: Some(step), ..*self }
+    }
+
+    /// With a part taken of each wavelength.
+    fn filtered(&self, parts: &[f64; N], step: &'p Step<'p>) -> Self {
+        let mut throughput = self.throughput;
+        for (value, part) in throughput.iter_mut().zip(parts) {
+            *value *= part;
+        }
+        Self { throughput, steps: Some(step), ..*self }
+    }
+
+    fn is_faint(&self) -> bool {
+        self.throughput.iter().all(|value| *value < FAINTEST)
+    }
+}
+
+/// A hit with what the observer's terms become there.
+struct Seen<'h, const N: usize> {
+    hit: &'h Hit<'h>,
+    spot: Spot,
+    departure: Event,
+    leg: &'h Leg,
+    // The light's frequency at the surface, in units of what the observer sees.
+    omega: f64,
+    // ω where wavelengths are concerned: 1 with the Doppler effect switched off.
+    shift: f64,
+    // The observer's wavelengths, and the same in the surface's rest frame, nm.
+    lanes: &'h [f64; N],
+    nm: [f64; N],
+    path: &'h Path<'h, N>,
+    // Half the width of what the sample sees, rest frame, m.
+    radius: f64,
+    // The sum of s up to here.
+    way: f64,
+}
+
+impl<const N: usize> Seen<'_, N> {
+    fn look(&self) -> Look<'_> {
+        Look { hit: self.hit, spot: &self.spot, radius: self.radius }
+    }
+
+    /// The direction to where the light goes, unit, in the surface's rest frame.
+    fn to_eye(&self) -> DVec3 {
+        self.spot.k.x / self.spot.k.x.length()
+    }
+
+    /// The body's own time.
+    fn tau(&self) -> f64 {
+        self.spot.event.t - self.hit.placed.clock_zero
+    }
+
+    /// The same seen through something more.
+    fn through<'s>(&'s self, path: &'s Path<'s, N>) -> Seen<'s, N> {
+        Seen { path, ..*self }
+    }
+}
+
+/// What has been gathered for a sight ray.
+struct Gathered<const N: usize> {
+    light: Light<N>,
+    // Where lines are kept apart instead of becoming XYZ.
+    caught: Option<Vec<split::Caught>>,
+}
+
+impl Lit<'_> {
+    /// The light that arrives along a sight ray.
+    pub fn seen<const N: usize>(&self, ray: &SightRay, wavelengths: &Wavelengths<N>) -> Light<N> {
+        self.seen_within(ray, Cone::default(), wavelengths)
+    }
+
+    /// The light that arrives along a sight ray of some width.
+    pub fn seen_within<const N: usize>(
+        &self,
+        ray: &SightRay,
+        cone: Cone,
+        wavelengths: &Wavelengths<N>,
+    ) -> Light<N> {
+        let light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
+        let mut gathered = Gathered { light, caught: None };
+        let path =
+            Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
+        let leg = Leg { ray: *ray, wave: ray.k, inside: Inside::default() };
+        if self.media.is_empty() {
+            self.gather(&leg, &wavelengths.nm, &path, &mut gathered);
+        } else {
+            self.start_inside(&leg, &wavelengths.nm, &path, &mut gathered);
+        }
+        gathered.light
+    }
+
+    /// The first hit of a sight ray.
+    pub fn first(&self, ray: &SightRay) -> Option<First> {
+        let mut from = *ray;
+        for _ in 0..MOST_VEILS {
+            let hit = self.world.nearest(&from)?;
+            let spot = hit.spot(&from);
+            let look = Look { hit: &hit, spot: &spot, radius: 0.0 };
+            let veil = self.surfaces.get(hit.surface()).and_then(|surface| surface.veil.as_ref());
+            if veil.is_none_or(|veil| veil.share(&look) >= 0.5) {
+                let doppler = Doppler::from_emitted(spot.k.t);
+                return Some(First { doppler, emission: from.at(hit.s), body: hit.placed.body });
+            }
+            from.event = spot.beyond(hit.rest, 0.0);
+        }
+        None
+    }
+
+    fn gather<const N: usize>(
+        &self,
+        leg: &Leg,
+        lanes: &[f64; N],
+        path: &Path<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let Some(hit) = self.world.nearest(&leg.ray) else {
+            return self.add_surroundings(leg, lanes, path, gathered);
+        };
+        let Some(surface) = self.surfaces.get(hit.surface()) else { return };
+        let spot = hit.spot(&leg.ray);
+        let in_vacuum = leg.inside.is_empty();
+        let omega = if in_vacuum { spot.k.t } else { (hit.rest.rest_from_lab * leg.wave).t };
+        if omega <= 0.0 {
+            return; // Light in a medium cannot overtake what is faster than it.
+        }
+        let shift = self.effects.shift(omega);
+        let way = path.way + if in_vacuum { hit.s } else { self.slowed(leg, lanes[0], hit.s) };
+        let seen = Seen {
+            departure: spot.departure(hit.rest),
+            hit: &hit,
+            spot,
+            leg,
+            omega,
+            shift,
+            lanes,
+            nm: scaled(lanes, 1.0 / shift),
+            path,
+            radius: path.cone.sample * way,
+            way,
+        };
+        if in_vacuum {
+            self.meet(surface, &seen, gathered);
+        } else {
+            self.meet_through_medium(surface, &seen, gathered);
+        }
+    }
+
+    /// A surface, and what is seen through where it is not there.
+    fn meet<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+        let Some(veil) = &surface.veil else { return self.shade(surface, seen, gathered) };
+        let share = veil.share(&seen.look());
+        let dim = |part: f64| move |_: f64| part;
+        if share > 0.0 {
+            let part = dim(share);
+            let step = Step { before: seen.path.steps, part: &part, shift: 1.0 };
+            self.shade(surface, &seen.through(&seen.path.dimmed(share, &step)), gathered);
+        }
+        if share < 1.0 && seen.path.veils > 0 {
+            let part = dim(1.0 - share);
+            let step = Step { before: seen.path.steps, part: &part, shift: 1.0 };
+            let path =
+                Path { veils: seen.path.veils - 1, way: seen.way, ..seen.path.dimmed(1.0 - share, &step) };
+            let event = seen.spot.beyond(seen.hit.rest, 0.0);
+            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
+            if !path.is_faint() {
+                self.gather(&leg, seen.lanes, &path, gathered);
+            }
+        }
+    }
+
+    fn shade<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+        if let Some(glow) = &surface.glow {
+            self.add_glow(glow, seen, gathered);
+        }
+        match &surface.scatter {
+            Scatter::Absorb => {}
+            Scatter::Diffuse(_) => self.add_lamps(surface, seen, gathered),
+            Scatter::Gloss(_) | Scatter::Metal(_) => self.add_gloss(surface, seen, gathered),
+            Scatter::Mirror(paint) => self.follow_mirror(paint, surface, seen, gathered),
+            Scatter::Glass(glass) => self.add_glass(glass, surface, seen, gathered),
+            Scatter::Mixed(parts) => {
+                for (course, part) in parts {
+                    let share = course.at(seen.tau());
+                    if share > 0.0 {
+                        let dim = |_: f64| share;
+                        let step = Step { before: seen.path.steps, part: &dim, shift: 1.0 };
+                        self.meet(part, &seen.through(&seen.path.dimmed(share, &step)), gathered);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Light that the surface emits itself.
+    fn add_glow<const N: usize>(&self, glow: &Glow, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+        let look = seen.look();
+        let white = Reflectance::Constant(1.0);
+        let tint = match &glow.paint {
+            Some(paint) => paint.at(&look),
+            None => crate::surface::Tint::Of(std::borrow::Cow::Borrowed(&white)),
+        };
+        let filter = tint.at_each(&seen.nm);
+        let mut radiance = glow.radiance.at_each(&seen.nm);
+        for (value, filter) in radiance.iter_mut().zip(filter) {
+            *value *= filter;
+        }
+        self.add(&radiance, seen, gathered);
+        for line in glow.radiance.lines() {
+            self.add_line(line, line.wavelength_nm, line.power * tint.at(line.wavelength_nm), seen, gathered);
+        }
+    }
+
+    /// Light from beyond all bodies.
+    fn add_surroundings<const N: usize>(
+        &self,
+        leg: &Leg,
+        lanes: &[f64; N],
+        path: &Path<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        for surroundings in self.surroundings {
+            let k = surroundings.rest_from_lab * self.escaped(leg);
+            let shift = self.effects.shift(k.t);
+            let sigma = path.cone.pixel / k.t;
+            let mut radiance = surroundings.sky.radiance(-k.x / k.x.length(), sigma, &scaled(lanes, 1.0 / shift));
+            let gain = self.effects.gain(k.t, -5);
+            for value in &mut radiance {
+                *value *= gain;
+            }
+            add_to(&mut gathered.light.radiance, &radiance, &path.throughput);
+            for line in surroundings.sky.lines() {
+                gathered.line::<N>(line, line.wavelength_nm * shift, line.power * gain * shift, path);
+            }
+        }
+    }
+
+    /// Radiance that leaves the surface, as the observer gets it: `L(λ) = ω⁻⁵ L'(λ/ω)`.
+    fn add<const N: usize>(&self, radiance: &[f64; N], seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+        let gain = self.effects.gain(seen.omega, -5);
+        for ((sum, value), part) in
+            gathered.light.radiance.iter_mut().zip(radiance).zip(seen.path.throughput)
+        {
+            *sum += gain * value * part;
+        }
+    }
+
+    /// A line that leaves the surface, as the observer gets it: at λω, with `ω⁻⁴` of its power.
+    ///
+    /// `of`: the source's own line. The wavelength (nm) and the power are those at the surface.
+    fn add_line<const N: usize>(
+        &self,
+        of: &Line,
+        wavelength_nm: f64,
+        power: f64,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let power = power * self.effects.gain(seen.omega, -5) * seen.shift;
+        gathered.line::<N>(of, wavelength_nm * seen.shift, power, seen.path);
+    }
+}
+
+impl<const N: usize> Gathered<N> {
+    /// A line that the observer would see at a wavelength with a power, but for what lies between.
+    fn line<const M: usize>(&mut self, of: &Line, seen_nm: f64, power: f64, path: &Path<'_, M>) {
+        let power = power * path.steps.map_or(1.0, |step| step.throughput(seen_nm));
+        match &mut self.caught {
+            Some(caught) => caught.push(split::Caught::new(of, seen_nm, power)),
+            None => self.light.lines += Wavelengths::<N>::line_xyz(seen_nm, power),
+        }
+    }
+}
+
+fn add_to<const N: usize>(sum: &mut [f64; N], values: &[f64; N], parts: &[f64; N]) {
+    for ((sum, value), part) in sum.iter_mut().zip(values).zip(parts) {
+        *sum += value * part;
+    }
+}
+
+/// Wavelengths in another rest frame. (A loop, since `map` on an array is not inlined.)
+#[inline]
+fn scaled<const N: usize>(nm: &[f64; N], factor: f64) -> [f64; N] {
+    let mut scaled = *nm;
+    for nm in &mut scaled {
+        *nm *= factor;
+    }
+    scaled
+}

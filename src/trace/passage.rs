@@ -1,0 +1,150 @@
+//! What becomes of a lamp's light on its way to a surface.
+//!
+//! Light goes straight on through glass, less what its faces reflect and its inside absorbs: a lamp is a point, and what
+//! a lens makes of it (caustics) cannot be found by going back from the surface.
+
+use super::Lit;
+use crate::fresnel;
+use crate::lamp::Connection;
+use crate::surface::{Glass, Look, Scatter, Surface, Tint};
+use crate::world::Hit;
+
+/// What is left of a lamp's light.
+#[derive(Debug)]
+pub(super) struct Passage<'s> {
+    /// At all wavelengths alike.
+    pub(super) clear: f64,
+    faces: Vec<Face<'s>>,
+    insides: Vec<Stretch>,
+    s_lamp: f64,
+}
+
+/// A face of glass on the way, which lets `rest + part √tint(λ)` through.
+#[derive(Debug)]
+struct Face<'s> {
+    tint: Tint<'s>,
+    // Frequency there, in the units of the connection.
+    omega: f64,
+    rest: f64,
+    part: f64,
+}
+
+/// A crossing of the boundary of a medium.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    medium: u32,
+    s: f64,
+    // Going back in time the way leads inside.
+    entering: bool,
+}
+
+impl<'s> Passage<'s> {
+    fn clear(s_lamp: f64) -> Self {
+        Self { clear: 1.0, faces: Vec::new(), insides: Vec::new(), s_lamp }
+    }
+
+    /// Takes from the light what a surface takes; whether nothing is left.
+    fn take(&mut self, surface: &'s Surface, look: &Look<'_>) -> bool {
+        let share = surface.veil.as_ref().map_or(1.0, |veil| veil.share(look));
+        match &surface.scatter {
+            _ if share <= 0.0 => {}
+            Scatter::Glass(glass) => self.take_glass(glass, share, look),
+            Scatter::Mixed(parts) => {
+                let tau = look.spot.event.t - look.hit.placed.clock_zero;
+                let present = || parts.iter().map(|(course, part)| (course.at(tau), part));
+                if let Some((_, only)) = present().find(|(share, _)| *share >= 1.0) {
+                    return self.take(only, look);
+                }
+                let solid = present().filter(|(_, part)| !part.lets_through());
+                self.clear *= 1.0 - share * solid.map(|(share, _)| share).sum::<f64>().min(1.0);
+            }
+            _ => self.clear *= 1.0 - share,
+        }
+        self.clear <= 0.0
+    }
+
+    fn take_glass(&mut self, glass: &'s Glass, share: f64, look: &Look<'_>) {
+        let k = look.spot.k;
+        let cosine = look.spot.facet_normal.dot(k.x) / k.x.length();
+        let through = 1.0 - fresnel::dielectric(cosine, glass.index.at(589.0));
+        let part = share * glass.amount_at(look) * through;
+        match &glass.color {
+            Some(color) => {
+                self.faces.push(Face { tint: color.at(look), omega: k.t, rest: 1.0 - share, part });
+            }
+            None => self.clear *= 1.0 - share + part,
+        }
+        if !glass.thin {
+            let entering = look.spot.outside;
+            self.insides.push(Stretch { medium: glass.medium, s: look.hit.s, entering });
+        }
+    }
+
+    /// The sum of s that the light spends in each medium.
+    fn ways(&self) -> Vec<(u32, f64)> {
+        let mut media: Vec<u32> = self.insides.iter().map(|stretch| stretch.medium).collect();
+        media.sort_unstable();
+        media.dedup();
+        let way = |medium: u32| {
+            let of = self.insides.iter().filter(|stretch| stretch.medium == medium);
+            let (sum, open) = of.fold((0.0, 0_i32), |(sum, open), stretch| {
+                if stretch.entering { (sum - stretch.s, open + 1) } else { (sum + stretch.s, open - 1) }
+            });
+            // Entered and not left: the lamp is inside.
+            let sum = if open > 0 { sum + self.s_lamp } else { sum };
+            (medium, if sum.is_finite() { sum.max(0.0) } else { 0.0 })
+        };
+        media.into_iter().map(way).collect()
+    }
+}
+
+impl Lit<'_> {
+    /// What is left of a lamp's light where it arrives; none if nothing is.
+    pub(super) fn passage(&self, connection: &Connection) -> Option<Passage<'_>> {
+        let mut passage = Passage::clear(connection.s_lamp);
+        let ray = &connection.ray;
+        let blocked = if self.see_through {
+            self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
+                let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
+                if !surface.lets_through_at_all() {
+                    return true;
+                }
+                let spot = hit.spot(ray);
+                passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
+            })
+        } else {
+            self.world.blocked(ray, connection.s_lamp)
+        };
+        (!blocked).then_some(passage)
+    }
+
+    /// Takes from light what is coloured on its way. `omega`: its frequency, in the units of the connection, where its
+    /// wavelengths are `nm`.
+    pub(super) fn filter<const N: usize>(
+        &self,
+        passage: &Passage<'_>,
+        connection: &Connection,
+        omega: f64,
+        nm: &[f64; N],
+        light: &mut [f64; N],
+    ) {
+        for face in &passage.faces {
+            let shift = self.effects.shift(omega / face.omega);
+            for (value, nm) in light.iter_mut().zip(nm) {
+                *value *= face.rest + face.part * face.tint.at(nm * shift).max(0.0).sqrt();
+            }
+        }
+        if passage.insides.is_empty() {
+            return;
+        }
+        for (medium, way) in passage.ways() {
+            let Some(medium) = self.media.get(medium as usize) else { continue };
+            let Some(absorption) = &medium.absorption else { continue };
+            let k = medium.rest_from_lab * connection.ray.k;
+            let shift = self.effects.shift(omega / k.t);
+            for (value, nm) in light.iter_mut().zip(nm) {
+                *value *= absorption.after(way * k.t, nm * shift);
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Where a sight ray meets a body, and what the surface is like there.
+
+use super::placed::Placed;
+use super::RestFrame;
+use crate::spacetime::{Event, FourVector, Rest, SightRay};
+use crate::triangles::Meeting;
+use glam::{DVec2, DVec3, Vec2};
+
+/// Where a sight ray meets a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Hit<'w> {
+    /// The ray's parameter, the same in every frame.
+    pub s: f64,
+    /// The rest frame.
+    pub rest: &'w RestFrame,
+    /// The mesh.
+    pub placed: &'w Placed,
+    pub(super) meeting: Meeting,
+}
+
+/// The surface at a hit, in the rest frame of the body.
+#[derive(Debug, Clone, Copy)]
+pub struct Spot {
+    /// The event of the hit.
+    pub event: Event<Rest>,
+    /// What the sight ray's events step by: the wave vector of the light that leaves the surface, in vacuum.
+    pub k: FourVector<Rest>,
+    /// The facet's own normal, on the side from which it is seen.
+    pub facet_normal: DVec3,
+    /// The interpolated normal, on the same side.
+    pub normal: DVec3,
+    /// Whether it is seen from outside, the side from which corners go counter-clockwise.
+    pub outside: bool,
+    /// The largest coordinates that the place was computed from, metres: its rounding is a part of them.
+    pub size: f64,
+}
+
+impl Hit<'_> {
+    /// The hit as its own rest frame sees it.
+    pub fn spot(&self, ray: &SightRay) -> Spot {
+        let k = self.rest.rest_from_lab * ray.k;
+        let t = (self.rest.rest_from_lab * ray.at(self.s)).t;
+        let local = self.placed.local(&self.meeting);
+        let facet = unit(local.facet_normal, k.x);
+        // Seen from behind: the other side is the outside.
+        let outside = facet.dot(k.x) >= 0.0;
+        let side = if outside { 1.0 } else { -1.0 };
+        let normal = unit(local.normal, facet) * side;
+        Spot {
+            event: Event::new(t, local.x),
+            k,
+            facet_normal: facet * side,
+            normal,
+            outside,
+            size: local.size,
+        }
+    }
+
+    /// Number of the surface met.
+    pub fn surface(&self) -> usize {
+        let mesh = &self.placed.triangles.mesh;
+        self.placed.surfaces as usize + mesh.material_of(self.meeting.triangle) as usize
+    }
+
+    /// Texture coordinates of one set; the upper left corner where the mesh has none.
+    pub fn uv(&self, set: u8) -> DVec2 {
+        let mesh = &self.placed.triangles.mesh;
+        let uvs: &[Vec2] = mesh.uvs.get(set as usize).map_or(&[], |uvs| uvs);
+        let [a, b, c] = mesh.triangles[self.meeting.triangle as usize]
+            .map(|i| uvs.get(i as usize).map_or(DVec2::ZERO, |uv| uv.as_dvec2()));
+        let (v, w) = self.meeting.weights;
+        a + (b - a) * v + (c - a) * w
+    }
+
+    /// The vertices' colour, linear RGBA; none for a mesh without.
+    pub fn vertex_color(&self) -> Option<[f32; 4]> {
+        let mesh = &self.placed.triangles.mesh;
+        let [a, b, c] = mesh.triangles[self.meeting.triangle as usize].map(|i| mesh.colors.get(i as usize));
+        let (v, w) = (self.meeting.weights.0 as f32, self.meeting.weights.1 as f32);
+        let (a, b, c) = (a?, b?, c?);
+        Some(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * v + (c[i] - a[i]) * w))
+    }
+
+    /// What a step along the surface (rest frame) is in texture coordinates; none without any.
+    pub fn uv_of(&self, set: u8, along: [DVec3; 2]) -> Option<[DVec2; 2]> {
+        let ([e1, e2], [d1, d2]) = self.placed.edges(&self.meeting, set)?;
+        // along = β e1 + γ e2, solved in the plane of the triangle.
+        let (a, b, c) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
+        let det = a * c - b * b;
+        let solve = |v: DVec3| {
+            let (p, q) = (v.dot(e1), v.dot(e2));
+            (d1 * (c * p - b * q) + d2 * (a * q - b * p)) / det
+        };
+        Some(along.map(solve))
+    }
+
+    /// Along growing u, and toward the upper side of the picture, both at right angles to `normal` (which looks
+    /// outward or inward), unit length: the axes of a normal map (glTF 2.0, §3.7.2.1).
+    pub fn tangents(&self, set: u8, normal: DVec3) -> Option<(DVec3, DVec3)> {
+        let (tangent, hand) = match self.placed.tangent(&self.meeting) {
+            Some(own) => own,
+            None => {
+                let ([e1, e2], [d1, d2]) = self.placed.edges(&self.meeting, set)?;
+                // v grows downward, as glTF has it.
+                let det = d1.x * d2.y - d1.y * d2.x;
+                let along_u = (e1 * d2.y - e2 * d1.y) * det.signum();
+                let outward = self.placed.local(&self.meeting).facet_normal;
+                let along_v = (e2 * d1.x - e1 * d2.x) * det.signum();
+                let hand = if outward.cross(along_u).dot(along_v) > 0.0 { -1.0 } else { 1.0 };
+                (along_u, hand)
+            }
+        };
+        let tangent = (tangent - normal * tangent.dot(normal)).try_normalize()?;
+        Some((tangent, normal.cross(tangent) * hand))
+    }
+}
+
+/// The unit vector along `v`, or along `otherwise` if `v` has no direction.
+fn unit(v: DVec3, otherwise: DVec3) -> DVec3 {
+    v.try_normalize().unwrap_or_else(|| otherwise.normalize_or(DVec3::Z))
+}
+
+impl Spot {
+    /// The hit's event in the lab, moved off the facet on the side from which it is seen, by more than its rounding on
+    /// the way out and back in.
+    pub fn departure(&self, rest: &RestFrame) -> Event {
+        self.off(rest, 1.0, 0.0)
+    }
+
+    /// The same on the other side, and `more` metres further.
+    pub fn beyond(&self, rest: &RestFrame, more: f64) -> Event {
+        self.off(rest, -1.0, more)
+    }
+
+    fn off(&self, rest: &RestFrame, side: f64, more: f64) -> Event {
+        let gamma = rest.rest_from_lab.boost().velocity().gamma();
+        let origin = rest.rest_from_lab.origin();
+        let size = |t: f64, x: DVec3| t.abs() + x.abs().max_element();
+        let bound = 64.0
+            * f64::EPSILON
+            * gamma
+            * (gamma * (self.size + size(self.event.t, self.event.x)) + size(origin.t, origin.x));
+        let x = self.event.x + self.facet_normal * (side * (bound + more));
+        rest.rest_from_lab.undo(Event::new(self.event.t, x))
+    }
+}
