@@ -26,7 +26,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Shading normals, unit length, one a vertex.
     pub normals: Vec<Vec3>,
-    /// Unit tangents and their hand (±1), one a vertex, or empty.
+    /// The direction in which u of the normal map grows (unit length), and the sign w, 1 or -1, of the bitangent
+    /// w n × t; one a vertex, or empty where the file has none and they follow from the texture coordinates.
     pub tangents: Vec<[f32; 4]>,
     /// Up to two sets of texture coordinates, each one a vertex or empty.
     pub uvs: [Vec<Vec2>; 2],

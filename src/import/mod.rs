@@ -5,44 +5,36 @@
 //! nothing outside of one folder, checks counts against what is there before it allocates, and gives an
 //! error with the place of every fault it finds.
 //!
-//! Of glTF 2.0: the default scene with its nodes, triangles, base and emissive colours with their textures,
-//! lights and cameras. Skinned and morphed meshes stand in their rest pose; metalness, roughness, normal maps
-//! and animations are passed over. Coverage (`alphaMode`) is kept in the alpha of colours, and not used yet.
+//! Of glTF 2.0: the default scene with its nodes, triangles, tangents, lights and cameras; materials with base
+//! and emissive colours, metalness and roughness, normal maps, coverage (`alphaMode`), and by extensions
+//! refractive index, dispersion, transmission, volume, specular and clearcoat, each with its textures. Skinned
+//! and morphed meshes stand in their rest pose; animations, and the other extensions of materials (sheen,
+//! iridescence, anisotropy, diffuse transmission, specular-glossiness), are passed over with a warning.
+//! Ambient occlusion is left out for good: whoever follows the light finds what hides it. So are textures of
+//! thickness: the mesh has the true one.
 //!
 //! Of OBJ: polygons, concave ones too, with normals as written or flat (smoothing groups are not read), the
-//! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `map_Kd`, `map_Ke`.
+//! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `Ni`, `map_Kd`,
+//! `map_Ke`, and `Pm` and `Pr`. A material without the latter two scatters alike to all sides.
 
 mod files;
 mod gltf;
+mod material;
 mod obj;
 mod picture;
 mod shape;
 
 use crate::error::{Error, Fault, Place, Report};
 use crate::mesh::Mesh;
-use crate::texture::Texture;
 use files::Files;
 use glam::DAffine3;
+pub use material::{
+    Clearcoat, Coverage, Material, MetalRough, NormalMap, Specular, Transmission, Volume,
+};
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// A surface as the file describes it. Colours are linear sRGB.
-#[derive(Debug, Clone)]
-pub struct Material {
-    /// The file's name for it.
-    pub name: String,
-    /// Reflectance (RGB) and coverage (A), multiplied with the texture's and the vertices' colours.
-    pub base_color: [f32; 4],
-    /// Multiplies `base_color`.
-    pub base_texture: Option<Texture>,
-    /// Emitted light, cd/m² for a white of 1, strength included.
-    pub emissive: [f32; 3],
-    /// Multiplies `emissive`.
-    pub emissive_texture: Option<Texture>,
-    /// Shows its base colour whatever the lighting (`KHR_materials_unlit`).
-    pub unlit: bool,
-}
 
 /// A mesh placed in the asset's space.
 #[derive(Debug, Clone)]
@@ -125,6 +117,8 @@ pub struct Asset {
     pub meshes: Vec<Arc<Mesh>>,
     /// Materials; a mesh without one uses a last, default one.
     pub materials: Vec<Material>,
+    /// Extensions that are passed over, by the number of the material that has them.
+    pub ignored: BTreeMap<usize, Vec<String>>,
     /// Where the meshes stand.
     pub instances: Vec<Instance>,
     /// Lights in the order of their nodes.
@@ -231,17 +225,5 @@ impl Job {
 
     fn refused(&mut self, element: impl Into<String>, refusal: files::Refusal) {
         self.found(refusal.at(Place::element(&self.path, element)));
-    }
-}
-
-/// What triangles without a material are made of: white.
-fn default_material() -> Material {
-    Material {
-        name: String::new(),
-        base_color: [1.0; 4],
-        base_texture: None,
-        emissive: [0.0; 3],
-        emissive_texture: None,
-        unlit: false,
     }
 }

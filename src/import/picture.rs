@@ -93,6 +93,28 @@ fn finite(mut texels: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
     texels
 }
 
+/// Bytes that the texels take.
+pub(super) fn size(picture: &Picture) -> u64 {
+    match &picture.texels {
+        Texels::Byte(v) => size_of_val(v.as_slice()) as u64,
+        Texels::Word(v) => size_of_val(v.as_slice()) as u64,
+        Texels::Float(v) => size_of_val(v.as_slice()) as u64,
+    }
+}
+
+/// What the numbers mean where they are no colours: as stored, whatever a colour would be.
+pub(super) fn as_data(mut picture: Picture) -> Picture {
+    picture.encoding = Encoding::Linear;
+    picture
+}
+
+/// What the numbers mean where they are colours.
+pub(super) fn as_color(mut picture: Picture) -> Picture {
+    let float = matches!(picture.texels, Texels::Float(_));
+    picture.encoding = if float { Encoding::Linear } else { Encoding::Srgb };
+    picture
+}
+
 /// The same picture with full coverage everywhere.
 pub(super) fn opaque(mut picture: Picture) -> Picture {
     match &mut picture.texels {

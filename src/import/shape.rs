@@ -10,6 +10,7 @@ use glam::{DVec3, Vec2, Vec3};
 pub(super) struct Shape {
     pub positions: Vec<Vec3>,
     pub normals: Vec<Vec3>,
+    pub tangents: Vec<[f32; 4]>,
     pub uvs: [Vec<Vec2>; 2],
     pub colors: Vec<[f32; 4]>,
     pub triangles: Vec<[u32; 3]>,
@@ -24,6 +25,7 @@ impl Shape {
             [normal; 3]
         });
         self.normals = normals.collect();
+        self.tangents = spread(&self.tangents, corners);
         self.uvs = [spread(&self.uvs[0], corners), spread(&self.uvs[1], corners)];
         self.colors = spread(&self.colors, corners);
         self.positions = spread(&self.positions, corners);
@@ -87,6 +89,7 @@ pub(super) fn append(mesh: &mut Mesh, mut shape: Shape, material: u32) -> Result
     for (into, from) in mesh.uvs.iter_mut().zip(&mut shape.uvs) {
         extend(into, from, first, whole, Vec2::ZERO);
     }
+    extend(&mut mesh.tangents, &mut shape.tangents, first, whole, [1.0, 0.0, 0.0, 1.0]);
     extend(&mut mesh.colors, &mut shape.colors, first, whole, [1.0; 4]);
     let offset = first as u32;
     if first == 0 {

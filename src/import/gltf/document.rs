@@ -13,10 +13,16 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// Extensions that are understood.
-pub(super) const SUPPORTED: [&str; 5] = [
+pub(super) const SUPPORTED: [&str; 11] = [
     "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];
@@ -167,7 +173,8 @@ fn versions(value: &Value, job: &mut Job) -> bool {
     }
 }
 
-/// Refuses what is required and not understood, all of it at once; warns of what is only used.
+/// Refuses what is required and not understood, all of it at once; warns of what is only used, but for what
+/// materials have: that is told with their names.
 fn extensions(value: &Value, job: &mut Job) {
     let required: BTreeSet<_> = strings(&value["extensionsRequired"]).collect();
     for (i, name) in strings(&value["extensionsRequired"]).enumerate() {
@@ -181,8 +188,13 @@ fn extensions(value: &Value, job: &mut Job) {
             job.fault(format!("extensionsRequired[{i}]"), what, hint);
         }
     }
-    let used = strings(&value["extensionsUsed"]);
-    let unknown: Vec<_> = used.filter(|n| !SUPPORTED.contains(n) && !required.contains(n)).collect();
+    let materials = list(&value["materials"]).iter();
+    let of_materials: BTreeSet<&str> = materials
+        .filter_map(|material| material["extensions"].as_object())
+        .flat_map(|extensions| extensions.keys().map(String::as_str))
+        .collect();
+    let told = |name: &str| SUPPORTED.contains(&name) || required.contains(name) || of_materials.contains(name);
+    let unknown: Vec<_> = strings(&value["extensionsUsed"]).filter(|name| !told(name)).collect();
     if !unknown.is_empty() {
         job.warn("extensionsUsed", format!("passed over: {}", unknown.join(", ")), "");
     }

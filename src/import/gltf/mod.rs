@@ -3,19 +3,20 @@
 //! The `gltf` crate parses the JSON and the container; numbers are read here, each accessor checked against
 //! its view and its buffer before anything is allocated.
 //!
-//! Read: the default scene with its nodes, meshes (triangles, strips, fans), base and emissive colours and
-//! textures, lights and cameras, and the extensions in [`document::SUPPORTED`]. Skinned and morphed meshes
-//! stand in their rest pose. Metalness, roughness, normal maps and animations are passed over.
+//! Read: the default scene with its nodes, meshes (triangles, strips, fans), materials, lights and cameras, and
+//! the extensions in [`document::SUPPORTED`]. Skinned and morphed meshes stand in their rest pose. Animations
+//! and ambient occlusion are passed over.
 
 mod accessor;
 mod buffer;
 mod document;
+mod extension;
 mod material;
 mod primitive;
 mod scene;
 mod texture;
 
-use super::{Asset, Job, default_material};
+use super::{Asset, Job, Material};
 use crate::mesh::Mesh;
 use document::Document;
 use gltf::json;
@@ -24,11 +25,12 @@ use std::sync::Arc;
 /// Reads the bytes of a `.gltf` or `.glb` file.
 pub(super) fn read(bytes: &[u8], job: &mut Job) -> Option<Asset> {
     let document = document::open(bytes, job)?;
-    let materials = material::all(&document, job);
+    let (materials, ignored) = material::all(&document, job);
     let placed = scene::place(&document, job)?;
     let mut asset = Asset {
         nodes: placed.nodes,
         materials,
+        ignored,
         lights: placed.lights,
         cameras: placed.cameras,
         animations: document.animations.clone(),
@@ -45,7 +47,7 @@ pub(super) fn read(bytes: &[u8], job: &mut Job) -> Option<Asset> {
         asset.instances.push(instance);
     }
     if asset.meshes.iter().any(|mesh| uses(mesh, asset.materials.len())) {
-        asset.materials.push(default_material());
+        asset.materials.push(Material::default());
     }
     Some(asset)
 }
@@ -56,18 +58,25 @@ fn uses(mesh: &Mesh, material: usize) -> bool {
 }
 
 /// One mesh with all of its primitives. What is at fault is left out and reported.
-fn mesh(document: &Document<'_>, number: usize, materials: &[super::Material], job: &mut Job) -> Mesh {
+fn mesh(document: &Document<'_>, number: usize, materials: &[Material], job: &mut Job) -> Mesh {
     let mut mesh = Mesh::default();
     let Some(written) = document.root.meshes.get(number) else { return mesh };
     mesh.name = written.name.clone().unwrap_or_default();
+    let mut lacks_tangents = false;
     for (i, part) in written.primitives.iter().enumerate() {
         let element = format!("meshes[{number}].primitives[{i}]");
         let Some(shape) = primitive::read(document, part, &element, job) else { continue };
         let material = part.material.map_or(materials.len(), |index| index.value());
         primitive::check_textures(&shape, materials.get(material), &element, job);
+        let bumpy = materials.get(material).is_some_and(Material::has_normal_map);
+        lacks_tangents |= bumpy && shape.tangents.is_empty();
         if let Err(refusal) = super::shape::append(&mut mesh, shape, material as u32) {
             job.refused(element, refusal);
         }
+    }
+    // Those made up for a primitive without any do no harm unless it has a normal map.
+    if lacks_tangents {
+        mesh.tangents = Vec::new();
     }
     mesh
 }

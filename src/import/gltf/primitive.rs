@@ -4,12 +4,16 @@ use super::accessor::{self, Elements};
 use super::document::Document;
 use crate::import::shape::Shape;
 use crate::import::{Job, Material};
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use gltf::json;
 use gltf::json::accessor::{ComponentType as Kind, Type};
 use gltf::json::material::AlphaMode;
 use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
+use std::collections::BTreeSet;
+
+/// How far from 1 or -1 a tangent's sign may be written.
+const HANDEDNESS: f32 = 1e-3;
 
 /// Types that an attribute may have (glTF 2.0 §3.7.2.1).
 struct Allowed {
@@ -36,6 +40,8 @@ const POSITION: Allowed = Allowed {
 };
 const NORMAL: Allowed =
     Allowed { shapes: &[Type::Vec3], kinds: &[], quantized: &[(Kind::I8, true), (Kind::I16, true)] };
+const TANGENT: Allowed =
+    Allowed { shapes: &[Type::Vec4], kinds: &[], quantized: &[(Kind::I8, true), (Kind::I16, true)] };
 const TEXCOORD: Allowed = Allowed {
     shapes: &[Type::Vec2],
     kinds: &[(Kind::U8, true), (Kind::U16, true)],
@@ -80,7 +86,7 @@ impl Attributes<'_, '_> {
     ) -> Option<Vec<[f32; N]>> {
         let name = semantic.to_string();
         let index = *self.primitive.attributes.get(&Checked::Valid(semantic))?;
-        let values = self.values(index, allowed, vertices, picked);
+        let values = self.values(index, allowed, vertices, picked).and_then(|values| finite(values, picked));
         values.map_err(|what| self.job.fault(format!("{}.attributes.{name}", self.element), what, "")).ok()
     }
 
@@ -96,13 +102,40 @@ impl Attributes<'_, '_> {
         if elements.count != vertices {
             return Err(format!("has {} elements, but POSITION has {vertices}", elements.count));
         }
-        let values = elements.floats(picked, self.job)?;
-        let Some(i) = values.iter().position(|v: &[f32; N]| !v.iter().all(|c| c.is_finite())) else {
-            return Ok(values);
-        };
-        let vertex = picked.map_or(i, |picked| picked[i] as usize);
-        Err(format!("vertex {vertex} is {:?}, which is not finite", values[i]))
+        elements.floats(picked, self.job)
     }
+
+    /// Tangents of unit length with their handedness; what is no tangent is warned of and gives none at all, so
+    /// that they are derived from the texture coordinates.
+    fn tangents(&mut self, vertices: usize, picked: Option<&[u32]>) -> Option<Vec<[f32; 4]>> {
+        let index = *self.primitive.attributes.get(&Checked::Valid(Semantic::Tangents))?;
+        let element = format!("{}.attributes.TANGENT", self.element);
+        let values = self.values(index, &TANGENT, vertices, picked);
+        let mut values = values.map_err(|what| self.job.fault(&element, what, "")).ok()?;
+        for (i, value) in values.iter_mut().enumerate() {
+            let [x, y, z, w] = *value;
+            let unit = DVec3::new(x.into(), y.into(), z.into()).normalize_or_zero();
+            if unit == DVec3::ZERO || (w.abs() - 1.0).abs() > HANDEDNESS || !w.is_finite() {
+                let vertex = picked.map_or(i, |picked| picked[i] as usize);
+                let what = format!("vertex {vertex} is {value:?}, which is no direction with a sign of 1 or -1");
+                let hint = "all tangents of this primitive are passed over: export them again, or none";
+                self.job.warn(element, what, hint);
+                return None;
+            }
+            let [x, y, z] = unit.as_vec3().to_array();
+            *value = [x, y, z, w.signum()];
+        }
+        Some(values)
+    }
+}
+
+/// Values that are all finite.
+fn finite<const N: usize>(values: Vec<[f32; N]>, picked: Option<&[u32]>) -> Result<Vec<[f32; N]>, String> {
+    let Some(i) = values.iter().position(|v| !v.iter().all(|c| c.is_finite())) else {
+        return Ok(values);
+    };
+    let vertex = picked.map_or(i, |picked| picked[i] as usize);
+    Err(format!("vertex {vertex} is {:?}, which is not finite", values[i]))
 }
 
 /// The triangles of a primitive; none if it has none or is at fault, which is reported.
@@ -134,6 +167,8 @@ pub(super) fn read(
     let mut attributes = Attributes { document, primitive, element, job };
     let positions = attributes.read(Semantic::Positions, &POSITION, vertices, picked);
     let normals = attributes.read(Semantic::Normals, &NORMAL, vertices, picked);
+    // Those that belong to other normals mean nothing (§3.7.2.1).
+    let tangents = normals.is_some().then(|| attributes.tangents(vertices, picked)).flatten();
     let mut uvs = [0, 1].map(|set| attributes.read(Semantic::TexCoords(set), &TEXCOORD, vertices, picked));
     let colors = attributes.read(Semantic::Colors(0), &COLOR, vertices, picked);
     if job.faults > before {
@@ -142,6 +177,7 @@ pub(super) fn read(
     let mut shape = Shape {
         positions: vectors(positions),
         normals: vectors(normals),
+        tangents: tangents.unwrap_or_default(),
         uvs: [0, 1]
             .map(|set| uvs[set].take().unwrap_or_default().into_iter().map(Vec2::from_array).collect()),
         colors: colors.unwrap_or_default(),
@@ -272,8 +308,8 @@ fn finish_normals(shape: &mut Shape, element: &str, job: &mut Job) -> Option<()>
 /// Warns when a primitive lacks the texture coordinates that its material's textures need.
 pub(super) fn check_textures(shape: &Shape, material: Option<&Material>, element: &str, job: &mut Job) {
     let Some(material) = material else { return };
-    for texture in [&material.base_texture, &material.emissive_texture].into_iter().flatten() {
-        let set = texture.uv_set;
+    let sets: BTreeSet<u8> = material.textures().map(|(_, texture)| texture.uv_set).collect();
+    for set in sets {
         if shape.uvs.get(usize::from(set)).is_some_and(Vec::is_empty) {
             let what =
                 format!("its material `{}` has a texture, but there is no TEXCOORD_{set}", material.name);

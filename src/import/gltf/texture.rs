@@ -5,7 +5,7 @@ use super::document::Document;
 use crate::import::Job;
 use crate::import::files::Refusal;
 use crate::import::picture;
-use crate::texture::{Filter, Picture, Texture, Wrap};
+use crate::texture::{Filter, Picture, Texels, Texture, Wrap};
 use glam::{DAffine2, DMat2, DVec2};
 use gltf::json;
 use gltf::json::extensions::texture::TextureTransform;
@@ -14,19 +14,33 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Pictures decoded so far, by the number of the image and whether their alpha is left out.
-pub(super) type Pictures = BTreeMap<(usize, bool), Option<Arc<Picture>>>;
+/// What a texture's numbers are taken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// Colour with coverage.
+    Color,
+    /// Numbers that are no colours, linear as stored.
+    Data,
+    /// Colour whose alpha is left out.
+    Opaque,
+}
+
+/// Pictures decoded so far, by the number of the image, in the order of [`Use`]; all none for one at fault.
+pub(super) type Pictures = BTreeMap<usize, [Option<Arc<Picture>>; 3]>;
 
 /// The texture that a material refers to; none if it is at fault, which is reported.
 pub(super) fn read(
     document: &Document<'_>,
     info: &json::texture::Info,
-    opaque: bool,
-    element: &str,
+    (element, usage): (&str, Use),
     pictures: &mut Pictures,
     job: &mut Job,
 ) -> Option<Texture> {
-    let written = super::get(&document.root.textures, info.index)?;
+    let Some(written) = super::get(&document.root.textures, info.index) else {
+        let what = format!("there is no textures[{}]", info.index.value());
+        job.fault(format!("{element}.index"), what, "");
+        return None;
+    };
     let sampler = written.sampler.and_then(|index| super::get(&document.root.samplers, index)).cloned();
     let sampler = sampler.unwrap_or_default();
     let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
@@ -47,7 +61,7 @@ pub(super) fn read(
         job.fault(format!("textures[{}].source", info.index.value()), what, hint);
         return None;
     };
-    let picture = picture(document, image, (written.source.value(), opaque), pictures, job)?;
+    let picture = picture(document, image, (written.source.value(), usage), pictures, job)?;
     let filter = match sampler.mag_filter {
         Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
         _ => Filter::Linear,
@@ -79,35 +93,52 @@ fn matrix(t: &TextureTransform) -> DAffine2 {
     DAffine2::from_mat2_translation(rotation * scale, DVec2::new(u, v))
 }
 
-/// The picture of an image (its number, and whether its alpha is left out); a fault is reported, once, and
-/// gives none.
+/// The picture of an image (its number) for a use; a fault is reported, once, and gives none.
 fn picture(
     document: &Document<'_>,
     image: &json::Image,
-    (number, opaque): (usize, bool),
+    (number, usage): (usize, Use),
     pictures: &mut Pictures,
     job: &mut Job,
 ) -> Option<Arc<Picture>> {
-    if let Some(known) = pictures.get(&(number, opaque)) {
-        return known.clone();
-    }
-    let made = if opaque {
-        picture(document, image, (number, false), pictures, job).map(|whole| without_alpha(&whole, job))
-    } else {
-        Some(load(document, image, job).map(Arc::new))
+    let slot = usage as usize;
+    let made = match pictures.get(&number) {
+        Some(known) if known[slot].is_some() => return known[slot].clone(),
+        // What has lost its alpha comes from what has it.
+        Some(_) if usage == Use::Opaque => {
+            let whole = picture(document, image, (number, Use::Color), pictures, job)?;
+            if picture::is_opaque(&whole) { Ok(whole) } else { altered(&whole, picture::opaque, job) }
+        }
+        Some(known) => {
+            let other = known.iter().flatten().next()?;
+            match usage {
+                _ if matches!(other.texels, Texels::Float(_)) => Ok(other.clone()),
+                Use::Data => altered(other, picture::as_data, job),
+                _ => altered(other, picture::as_color, job),
+            }
+        }
+        None => {
+            let loaded = load(document, image, job);
+            let first = if usage == Use::Data { Use::Data } else { Use::Color };
+            let alter = if usage == Use::Data { picture::as_data } else { picture::as_color };
+            let loaded = loaded.map_err(|refusal| job.refused(format!("images[{number}]"), refusal)).ok();
+            pictures.entry(number).or_default()[first as usize] = loaded.map(|made| Arc::new(alter(made)));
+            return picture(document, image, (number, usage), pictures, job);
+        }
     };
-    let made =
-        made.and_then(|made| made.map_err(|refusal| job.refused(format!("images[{number}]"), refusal)).ok());
-    pictures.insert((number, opaque), made.clone());
+    let made = made.map_err(|refusal| job.refused(format!("images[{number}]"), refusal)).ok();
+    pictures.entry(number).or_default()[slot].clone_from(&made);
     made
 }
 
-fn without_alpha(whole: &Arc<Picture>, job: &mut Job) -> Result<Arc<Picture>, Refusal> {
-    if picture::is_opaque(whole) {
-        return Ok(whole.clone());
-    }
-    job.files.take(u64::from(whole.width) * u64::from(whole.height) * 16)?;
-    Ok(Arc::new(picture::opaque(Picture::clone(whole))))
+/// A copy of a picture, changed.
+fn altered(
+    picture: &Picture,
+    alter: fn(Picture) -> Picture,
+    job: &mut Job,
+) -> Result<Arc<Picture>, Refusal> {
+    job.files.take(picture::size(picture))?;
+    Ok(Arc::new(alter(picture.clone())))
 }
 
 fn load(document: &Document<'_>, image: &json::Image, job: &mut Job) -> Result<Picture, Refusal> {

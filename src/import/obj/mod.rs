@@ -12,7 +12,7 @@ mod polygon;
 mod tidy;
 
 use super::shape::{self, Shape};
-use super::{Asset, Instance, Job, Node, default_material};
+use super::{Asset, Instance, Job, Material, Node};
 use crate::mesh::Mesh;
 use crate::texture::linear_from_srgb;
 use glam::{DAffine3, Vec2, Vec3};
@@ -34,7 +34,7 @@ pub(super) fn read(bytes: &[u8], job: &mut Job) -> Option<Asset> {
     let meshes = meshes(&tidied, job)?;
     let mut asset = Asset { materials: tidied.library.materials, ..Asset::default() };
     if meshes.iter().any(|mesh| mesh.parts.iter().any(|p| p.material as usize == asset.materials.len())) {
-        asset.materials.push(default_material());
+        asset.materials.push(Material { double_sided: true, ..Material::default() });
     }
     for (i, mesh) in meshes.into_iter().enumerate() {
         let name = mesh.name.clone();
@@ -113,6 +113,7 @@ fn shape(mesh: tobj::Mesh, fanned: &mut usize) -> Shape {
     };
     Shape {
         normals: vectors(&mesh.normals),
+        tangents: Vec::new(),
         uvs: [mesh.texcoords.as_chunks().0.iter().map(uv).collect(), Vec::new()],
         colors: mesh.vertex_color.as_chunks().0.iter().map(color).collect(),
         positions,

@@ -1,8 +1,8 @@
-//! Material libraries (MTL): colour, coverage, glow and their textures.
+//! Material libraries (MTL): colour, coverage, glow and their textures, refraction, metalness and roughness.
 
 use super::tidy::{lines, number, split};
 use crate::error::{Fault, Place};
-use crate::import::{Job, Material, default_material, picture};
+use crate::import::{Coverage, Job, Material, picture};
 use crate::texture::{Filter, Picture, Texture, Wrap};
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, BTreeSet};
@@ -68,6 +68,11 @@ struct Written {
     lines: [usize; 2],
     /// The last word of `map_d`, and its line.
     coverage: Option<(String, usize)>,
+    /// `Ni`.
+    ior: Option<f32>,
+    /// `Pm` and `Pr`, which only materials that reflect have.
+    metallic: Option<f32>,
+    roughness: Option<f32>,
 }
 
 /// Where one library is read.
@@ -128,7 +133,10 @@ impl Reader<'_> {
             all.push(Written { name: rest.to_owned(), ..Written::default() });
             return Ok(());
         }
-        let known = ["kd", "ke", "d", "tr", "map_kd", "map_ke", "map_d"].contains(&key.as_str());
+        const KNOWN: [&str; 13] = [
+            "kd", "ke", "d", "tr", "ni", "pm", "pr", "map_kd", "map_ke", "map_d", "map_pm", "map_pr", "norm",
+        ];
+        let known = KNOWN.contains(&key.as_str());
         let Some(written) = all.last_mut().filter(|_| known) else {
             return if known { Err(format!("`{key}` before the first newmtl")) } else { Ok(()) };
         };
@@ -146,6 +154,13 @@ impl Reader<'_> {
                 let coverage = if key == "d" { value } else { 1.0 - value };
                 tidied.push_str(&format!("d {}\n", coverage.clamp(0.0, 1.0)));
             }
+            "ni" => match number(rest)? {
+                ior if ior >= 1.0 => written.ior = Some(ior),
+                ior => self.warn(format!("a refractive index of {ior} is passed over: they begin at 1")),
+            },
+            "pm" => written.metallic = Some(share(rest)?),
+            "pr" => written.roughness = Some(share(rest)?),
+            "map_pm" | "map_pr" | "norm" => self.warn(format!("`{key}` is passed over")),
             "map_kd" | "map_ke" if !rest.is_empty() => {
                 let glow = usize::from(key == "map_ke");
                 written.lines[glow] = self.line;
@@ -178,14 +193,26 @@ impl Reader<'_> {
         let base_texture = base.and_then(|base| self.texture(base, !covered, library));
         self.line = written.lines[1];
         let emissive_texture = glow.and_then(|glow| self.texture(glow, true, library));
-        Material {
+        let dissolve = material.dissolve.unwrap_or(1.0);
+        let cut = covered && base_texture.as_ref().is_some_and(|base| !picture::is_opaque(&base.picture));
+        let mut made = Material {
             name: written.name.clone(),
-            base_color: [r, g, b, material.dissolve.unwrap_or(1.0)],
+            base_color: [r, g, b, dissolve],
             base_texture,
+            coverage: if cut || dissolve < 1.0 { Coverage::Blend } else { Coverage::Opaque },
             emissive: material.emissive.unwrap_or(dark),
             emissive_texture,
-            ..default_material()
+            double_sided: true,
+            ior: written.ior.unwrap_or(1.5),
+            ..Material::default()
+        };
+        // Without these the material is one of Lambert's: `Ks` and `Ns` are of a law that is not physical.
+        if written.metallic.is_some() || written.roughness.is_some() {
+            made.metal.metallic = written.metallic.unwrap_or(0.0);
+            made.metal.roughness = written.roughness.unwrap_or(1.0);
+            made.specular.strength = 1.0;
         }
+        made
     }
 
     /// The texture that the rest of a `map_` line describes.
@@ -236,6 +263,14 @@ fn color(words: &str) -> Result<[f32; 3], String> {
         }
     }
     Ok(color)
+}
+
+/// A number from 0 to 1.
+fn share(word: &str) -> Result<f32, String> {
+    match number(word)? {
+        value if (0.0..=1.0).contains(&value) => Ok(value),
+        value => Err(format!("{value} is out of range: type a number from 0 to 1")),
+    }
 }
 
 /// A texture's file with the options before it.
