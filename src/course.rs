@@ -21,6 +21,15 @@ pub enum Course {
 }
 
 impl Course {
+    /// This many times as much, if it is keyed.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Keyed(keys) => Self::Keyed(keys.into_iter().map(|(t, value)| (t, value * factor)).collect()),
+            other => other,
+        }
+    }
+
     /// The factor at a proper time, metres.
     pub fn at(&self, tau: f64) -> f64 {
         match self {

@@ -46,7 +46,9 @@ fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) 
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
         for offset in &offsets {
-            let light = lit.seen(&view.ray(centre + *offset), &wavelengths);
+            let place = centre + *offset;
+            let ray = view.ray(place);
+            let light = lit.seen_within(&ray, view.cone(place, &ray, sampling.samples), &wavelengths);
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
                 *sum += value;
             }

@@ -1,5 +1,6 @@
 //! Lamps, spots and suns, each at rest in a frame of its own.
 
+use crate::course::Course;
 use crate::spacetime::{Event, FourVector, Lab, Poincare, Rest, SightRay};
 use crate::spectrum::Source;
 use glam::DVec3;
@@ -38,8 +39,9 @@ pub struct Lamp {
     pub rest_from_lab: Poincare<Rest, Lab>,
     /// How it shines.
     pub beam: Beam,
-    /// Radiant intensity, W sr⁻¹ nm⁻¹, on the axis of a spot; irradiance, W m⁻² nm⁻¹, of a sun.
-    pub source: Source,
+    /// Radiant intensity, W sr⁻¹ nm⁻¹, on the axis of a spot; irradiance, W m⁻² nm⁻¹, of a sun. The sum of all, each
+    /// with its course in the lamp's own time.
+    pub light: Vec<(Course, Source)>,
 }
 
 /// The light from a lamp to an event.
@@ -49,6 +51,8 @@ pub struct Connection {
     pub ray: SightRay,
     /// Where on the ray the lamp is; infinite for a sun.
     pub s_lamp: f64,
+    /// When the light left, by the lamp's clock, metres. (A sun: when its wave front passed the place of the clock.)
+    pub emitted: f64,
     /// Frequency at the lamp in the units of the ray's wave vector.
     pub omega: f64,
     /// What multiplies the source for a receiver at rest beside the lamp that faces the light: the cone over the
@@ -63,10 +67,9 @@ impl Lamp {
     /// d = p - x        k = (|d|, -d)        so that the events E - s k go from the receiver (0) to the lamp (1)
     /// ~~~
     pub fn connect(&self, receiver: Event) -> Option<Connection> {
+        let event = self.rest_from_lab * receiver;
         let (toward, s_lamp) = match self.beam {
-            Beam::Point { place } | Beam::Spot { place, .. } => {
-                (place - (self.rest_from_lab * receiver).x, 1.0)
-            }
+            Beam::Point { place } | Beam::Spot { place, .. } => (place - event.x, 1.0),
             Beam::Sun { axis } => (-axis, f64::INFINITY),
         };
         let distance = toward.length();
@@ -85,6 +88,7 @@ impl Lamp {
         }
         let k = self.rest_from_lab.boost().inverse() * FourVector::new(distance, -toward);
         let dilution = if s_lamp.is_finite() { cone / (distance * distance) } else { cone };
-        Some(Connection { ray: SightRay { event: receiver, k }, s_lamp, omega: distance, dilution })
+        let emitted = event.t - if s_lamp.is_finite() { distance } else { -toward.dot(event.x) };
+        Some(Connection { ray: SightRay { event: receiver, k }, s_lamp, emitted, omega: distance, dilution })
     }
 }

@@ -9,10 +9,12 @@
 
 pub mod cli;
 pub mod color;
+pub mod course;
 pub mod diagnostic;
 pub mod error;
 pub mod exposure;
 pub mod film;
+pub mod fresnel;
 pub mod import;
 pub mod lamp;
 pub mod manifest;
@@ -25,6 +27,7 @@ pub mod scene;
 pub mod spacetime;
 pub mod spectrum;
 pub mod surface;
+pub mod surroundings;
 pub mod texture;
 pub mod trace;
 pub mod tree;

@@ -3,6 +3,7 @@
 use crate::spacetime::{
     Boost, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Worldline, looking_along,
 };
+use crate::trace::Cone;
 use glam::{DQuat, DVec2, DVec3};
 
 /// What a camera looks at.
@@ -100,6 +101,16 @@ impl View {
             Some(seer) => SightRay { k: ray.k * (1.0 / ray.k.dot(seer)), ..ray },
             None => ray,
         }
+    }
+
+    /// How wide the sight ray of a place is, of `samples` in each pixel: half the distance between neighbours.
+    pub fn cone(&self, pixel: DVec2, ray: &SightRay, samples: u32) -> Cone {
+        let cosine = -self.direction(pixel).z;
+        // A pixel's solid angle is its area on the plane at distance 1, times cos³.
+        let pixel = self.half_width / self.size.x * cosine * cosine.sqrt();
+        // With aberration switched off the angle is seen by those beside whom the light has another frequency.
+        let pixel = self.seer.map_or(pixel, |_| pixel / ray.k.dot(self.tetrad.velocity()));
+        Cone { sample: pixel / f64::from(samples).sqrt(), pixel }
     }
 
     /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.

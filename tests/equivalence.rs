@@ -11,8 +11,8 @@ use terrell::lamp::Beam;
 use terrell::observer::Aim;
 use terrell::scene::{Placement, Scene};
 use terrell::spacetime::{Circle, Course, Event, Poincare, Velocity};
-use terrell::spectrum::{Source, Wavelengths};
-use terrell::surface::{Paint, Scatter, Surface};
+use terrell::spectrum::{Beyond, Source, Wavelengths};
+use terrell::surface::{Colors, Paint, Scatter, Surface};
 use terrell::triangles::Triangles;
 
 const SIZE: (u32, u32) = (80, 60);
@@ -43,8 +43,9 @@ fn difference(a: &[DVec3], b: &[DVec3]) -> (f64, usize) {
 }
 
 fn painted() -> Surface {
-    let paint = Paint { color: [0.9, 0.8, 0.7], texture: None, vertex_colors: true };
-    Surface { scatter: Scatter::Painted(paint), glow: None }
+    let beyond = Beyond::MEAN;
+    let colors = Colors { color: [0.9, 0.8, 0.7], texture: None, vertex_colors: true, beyond };
+    Surface::new(Scatter::Diffuse(Paint::Colors(colors)))
 }
 
 struct Props {

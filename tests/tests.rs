@@ -10,6 +10,7 @@ mod effects;
 mod equivalence;
 mod film;
 mod furnace;
+mod glass;
 mod import;
 mod lamp;
 mod manifest;

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use terrell::color::{LUMENS_PER_WATT, matching};
 use terrell::spacetime::{Event, Velocity};
 use terrell::spectrum::{Reflectance, Table, Wavelengths};
-use terrell::surface::{Scatter, Surface};
+use terrell::surface::{Paint, Scatter, Surface};
 
 /// 0.2 at 200 nm, rising to 0.9 at 1600 nm.
 fn tint() -> Table {
@@ -21,8 +21,8 @@ fn part(nm: f64) -> f64 {
     0.2 + 0.7 * (nm - 200.0) / 1400.0
 }
 
-fn tinted(scatter: impl Fn(Reflectance) -> Scatter) -> Surface {
-    Surface { scatter: scatter(Reflectance::Table(tint())), glow: None }
+fn tinted(scatter: impl Fn(Paint) -> Scatter) -> Surface {
+    Surface::new(scatter(Paint::Even(Reflectance::Table(tint()))))
 }
 
 /// Frequency at what moves, of light that goes along `n` in the lab.
@@ -31,7 +31,7 @@ fn frequency(velocity: Velocity, n: DVec3) -> f64 {
 }
 
 /// A tinted plate at the origin that moves, the light that leaves it for z, and its frequency there.
-fn plate(scatter: impl Fn(Reflectance) -> Scatter) -> (Body, terrell::spacetime::SightRay, f64) {
+fn plate(scatter: impl Fn(Paint) -> Scatter) -> (Body, terrell::spacetime::SightRay, f64) {
     let velocity = beta(0.3, 0.2, 0.4);
     let ray = light_to(v(0.3, -0.2, 1.0), Event::ORIGIN);
     let omega = frequency(velocity, ray.k.x);

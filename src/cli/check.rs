@@ -5,7 +5,7 @@ use crate::manifest::Manifest;
 use crate::plan::Plan;
 use crate::render;
 use crate::scene::Scene;
-use crate::surface::Scatter;
+use crate::surface::{Scatter, Surface};
 use std::path::Path;
 
 /// Checks a manifest and prints what it needs.
@@ -25,9 +25,11 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
         placed().map(|placed| std::sync::Arc::as_ptr(&placed.triangles)).collect();
     meshes.sort_unstable();
     meshes.dedup();
-    let mirrors = scene.surfaces.iter().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
-    let glows = scene.surfaces.iter().filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
-    let lines = scene.lamps.iter().map(|lamp| &lamp.source).chain(glows).chain(&scene.ambient);
+    let surfaces = || scene.surfaces.iter().flat_map(Surface::all);
+    let mirrors = surfaces().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
+    let glows = surfaces().filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
+    let shining = scene.lamps.iter().flat_map(|lamp| lamp.light.iter().map(|(_, source)| source));
+    let lines = shining.chain(glows).chain(&scene.ambient);
     let lines = lines.into_iter().any(|source| !source.lines().is_empty());
     let sampling = &plan.sampling;
     let mut needs = vec![

@@ -174,6 +174,14 @@ pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
     Ok(asset)
 }
 
+/// Reads a picture file that the user names.
+pub fn picture_file(path: &Path) -> Result<crate::texture::Picture, Error> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let (mut files, _, bytes) = Files::open(path, folder)?;
+    let name = path.to_string_lossy();
+    picture::decode(&bytes, &name, &mut files).map_err(|refusal| Error::from(refusal.at(Place::file(path))))
+}
+
 /// Says how many were found beyond those kept.
 fn more(list: &mut Vec<Fault>, found: usize, path: &Path, of_what: &str) {
     let more = found.saturating_sub(list.len());

@@ -53,6 +53,7 @@ pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
 pub use table::Rows;
+pub(crate) use table::read_text;
 
 use crate::error::{Place, Report};
 use body::{Assets, Bodies};
@@ -125,7 +126,7 @@ pub fn load(path: &Path, report: &mut Report) -> Option<Manifest> {
 
 /// Reads the manifest in a file, some of its values given on the command line; see [`parse_with`].
 pub fn load_with(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Manifest> {
-    match table::read_text(path) {
+    match read_text(path) {
         Ok(text) => parse_with(path, &text, overrides, report),
         Err(why) => {
             report.fault(Place::file(path), why, "name a manifest, a YAML text file");

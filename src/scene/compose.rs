@@ -1,43 +1,47 @@
 //! From a manifest and its model files to the scene that they mean.
 
+use super::materials::{Owner, Workshop};
 use super::models::{Chosen, Model, Models};
-use super::{Placement, Scene, WorldBuilder, light};
+use super::{Placement, Scene, WorldBuilder, light, sky};
 use crate::error::Report;
 use crate::import;
-use crate::manifest::{self, LookAt, Manifest, MaterialKind, ModelFile};
+use crate::manifest::{self, LookAt, Manifest, ModelFile};
 use crate::observer::{Aim, Observer, Unaberrated};
 use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
-use crate::spectrum::{Reflectance, Source};
-use crate::surface::{Glow, Paint, Scatter, Surface};
+use crate::spectrum::{Beyond, Source};
+use crate::surface::Surface;
 use crate::trace::Effects;
+use crate::tree::Bounds;
 use glam::{DAffine3, DVec3};
 use std::path::Path;
-
-/// Luminance of an unlit surface of white colour, cd/m² (glTF gives it none).
-pub const UNLIT_LUMINANCE: f64 = 100.0;
 
 /// The scene that a manifest means. Reads the model files; all faults and warnings go to the report.
 pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<Scene> {
     let models = Models::load(manifest, path, report);
     let chosen = models.chosen(manifest, report);
-    let mut gathered = Gathered::default();
+    let ambient = manifest.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
+    let mut gathered = Gathered {
+        world: WorldBuilder::default(),
+        surfaces: Vec::new(),
+        ambient: vec![ambient.unwrap_or_default()],
+        lamps: Vec::new(),
+        workshop: Workshop::default(),
+    };
     for (number, body) in manifest.bodies.iter().enumerate() {
         let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) else { continue };
         gathered.add_body(number as u32, body, model, report);
     }
-    let unseen = manifest.assets.values().filter(|asset| asset.solid().is_some()).map(|asset| &asset.place);
-    for place in unseen.chain(manifest.surroundings.iter().map(|surroundings| &surroundings.place)) {
-        report.fault(place.clone(), "this is not rendered yet", "remove it");
-    }
     for light in &manifest.lights {
         gathered.lamps.extend(light::from_manifest(light, report));
     }
-    let ambient = manifest.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
+    let surroundings: Vec<_> =
+        manifest.surroundings.iter().map(|sky| sky::sky(sky, &mut gathered.workshop, report)).collect();
     let effects = effects(&manifest.effects);
     let observer = observer(manifest, report);
     let dark = gathered.lamps.is_empty()
-        && ambient.is_none()
-        && gathered.surfaces.iter().all(|surface| surface.glow.is_none());
+        && surroundings.is_empty()
+        && gathered.ambient.iter().all(Source::is_dark)
+        && !gathered.surfaces.iter().flat_map(Surface::all).any(|surface| surface.glow.is_some());
     if dark && !manifest.bodies.is_empty() {
         let place = crate::error::Place::file(path);
         report.warn(
@@ -52,8 +56,10 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
         Some(Scene {
             world,
             surfaces: gathered.surfaces,
+            media: gathered.workshop.media,
             lamps: gathered.lamps,
-            ambient,
+            ambient: gathered.ambient,
+            surroundings,
             effects,
             depth,
             observer,
@@ -72,11 +78,12 @@ fn effects(written: &manifest::Effects) -> Effects {
 }
 
 /// What the bodies put together.
-#[derive(Default)]
 struct Gathered {
     world: WorldBuilder,
     surfaces: Vec<Surface>,
+    ambient: Vec<Source>,
     lamps: Vec<crate::lamp::Lamp>,
+    workshop: Workshop,
 }
 
 impl Gathered {
@@ -90,31 +97,47 @@ impl Gathered {
         let placement = placement(&body.placement);
         let rest_from_asset =
             DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+        let first_medium = self.workshop.media.len();
         let first_surface = self.surfaces.len() as u32;
-        self.surfaces.extend(surfaces(body, &model.asset, report));
+        let surfaces = surfaces(body, &model.asset, &mut self.workshop, report);
+        self.add_surfaces(surfaces, body, report);
+        let mut bounds = Bounds::EMPTY;
         for instance in &model.asset.instances {
             let Some(triangles) = chosen.contains(instance.node).then(|| &model.triangles[instance.mesh])
             else {
                 continue;
             };
             let rest_from_mesh = rest_from_asset * instance.asset_from_mesh;
-            self.world.add(number, placement, triangles, rest_from_mesh, first_surface);
+            bounds = bounds.with(self.world.add(number, placement, triangles, rest_from_mesh, first_surface));
         }
+        let volume = (bounds.hi - bounds.lo).element_product();
+        self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
         let lights =
             model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
         self.lamps.extend(lights.map(|light| light::from_file(light, placement, rest_from_asset)));
     }
+
+    fn add_surfaces(&mut self, surfaces: Vec<Surface>, body: &manifest::Body, report: &mut Report) {
+        let own = body.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
+        let ambient = if own.is_some() { self.ambient.len() as u32 } else { 0 };
+        self.ambient.extend(own);
+        self.surfaces.extend(surfaces.into_iter().map(|surface| surface.in_ambient(ambient)));
+    }
 }
 
 /// The surfaces of a body, one for each material of its file.
-fn surfaces(body: &manifest::Body, asset: &import::Asset, report: &mut Report) -> Vec<Surface> {
-    let mut surfaces: Vec<Surface> = match &body.material {
-        Some(material) => vec![surface(material, body, report); asset.materials.len()],
-        None => asset.materials.iter().map(imported_surface).collect(),
-    };
+fn surfaces(
+    body: &manifest::Body,
+    asset: &import::Asset,
+    workshop: &mut Workshop,
+    report: &mut Report,
+) -> Vec<Surface> {
+    let owner = Owner { place: &body.place, rest_from_lab: placement(&body.placement).rest_from_lab().boost() };
+    let mut instead: Vec<Option<&manifest::Material>> =
+        vec![body.material.as_deref(); asset.materials.len()];
     for (name, material) in &body.materials {
         let named: Vec<usize> =
-            (0..surfaces.len()).filter(|i| asset.materials[*i].name == name.value).collect();
+            (0..instead.len()).filter(|i| asset.materials[*i].name == name.value).collect();
         if named.is_empty() {
             let known = asset.materials.iter().map(|m| m.name.as_str()).filter(|name| !name.is_empty());
             let hint = match crate::error::nearest_name(&name.value, known.clone()) {
@@ -125,51 +148,14 @@ fn surfaces(body: &manifest::Body, asset: &import::Asset, report: &mut Report) -
             report.fault(name.place.clone(), what, hint);
         }
         for i in named {
-            surfaces[i] = surface(material, body, report);
+            instead[i] = Some(material);
         }
     }
-    surfaces
-}
-
-fn surface(material: &manifest::Material, body: &manifest::Body, report: &mut Report) -> Surface {
-    let mut reflectance = |spectrum| match light::reflectance(spectrum) {
-        Ok(reflectance) => reflectance,
-        Err(what) => {
-            report.fault(body.place.clone(), what, "use a constant, an RGB colour or a table");
-            Reflectance::Constant(0.0)
-        }
+    let surface = |(file, instead): (&import::Material, Option<&manifest::Material>)| match instead {
+        Some(material) => workshop.surface(material, Some(file), owner, report),
+        None => workshop.imported(file, Beyond::MEAN, owner),
     };
-    match &material.kind {
-        MaterialKind::Diffuse(manifest::Paint::Even(spectrum)) => {
-            Surface { scatter: Scatter::Diffuse(reflectance(spectrum)), glow: None }
-        }
-        MaterialKind::Mirror(manifest::Paint::Even(spectrum)) => {
-            Surface { scatter: Scatter::Mirror(reflectance(spectrum)), glow: None }
-        }
-        MaterialKind::Emission(glow) => {
-            let glow = light::radiance(glow, report).map(|radiance| Glow { radiance, paint: None });
-            Surface { scatter: Scatter::Absorb, glow }
-        }
-        _ => {
-            report.fault(material.place.clone(), "this material is not rendered yet", "diffuse: 0.8");
-            Surface { scatter: Scatter::Absorb, glow: None }
-        }
-    }
-}
-
-fn imported_surface(material: &import::Material) -> Surface {
-    let [r, g, b, _] = material.base_color;
-    let base = Paint { color: [r, g, b], texture: material.base_texture.clone(), vertex_colors: true };
-    let white = |luminance| Source::with_luminous(&crate::spectrum::Spectrum::DAYLIGHT, luminance);
-    if material.unlit {
-        let glow = white(UNLIT_LUMINANCE).map(|radiance| Glow { radiance, paint: Some(base) });
-        return Surface { scatter: Scatter::Absorb, glow };
-    }
-    let emits = material.emissive.iter().any(|channel| *channel > 0.0);
-    let emitted =
-        Paint { color: material.emissive, texture: material.emissive_texture.clone(), vertex_colors: false };
-    let glow = emits.then(|| white(1.0)).flatten().map(|radiance| Glow { radiance, paint: Some(emitted) });
-    Surface { scatter: Scatter::Painted(base), glow }
+    asset.materials.iter().zip(instead).map(surface).collect()
 }
 
 fn observer(manifest: &Manifest, report: &mut Report) -> Observer {

@@ -2,6 +2,8 @@
 
 use super::Placement;
 use super::compose::placement;
+use super::materials;
+use crate::course::Course;
 use crate::error::{Place, Report};
 use crate::import;
 use crate::lamp::{Beam, Lamp};
@@ -33,8 +35,27 @@ pub(super) fn from_manifest(light: &manifest::Light, report: &mut Report) -> Opt
         Strength::Total(Amount::Photometric(value)) => Amount::Photometric(value / divide),
         Strength::Total(Amount::Radiometric(value)) => Amount::Radiometric(value / divide),
     };
-    let source = source(spectrum, amount, &light.place, report)?;
-    Some(Lamp { rest_from_lab: placement(&light.placement).rest_from_lab(), beam, source })
+    let light_of = |spectrum: &manifest::Spectrum, report: &mut Report| {
+        source(spectrum, amount, &light.place, report)
+    };
+    let light_parts = match &light.course {
+        manifest::Course::Steady => vec![(Course::Steady, light_of(spectrum, report)?)],
+        manifest::Course::Blinking(blinking) => {
+            vec![(materials::blink(blinking, false), light_of(spectrum, report)?)]
+        }
+        manifest::Course::Keys(keys) => {
+            let mut parts = Vec::new();
+            let mut current: &manifest::Spectrum = spectrum;
+            let times: Vec<f64> = keys.iter().map(|key| key.at).collect();
+            for (i, key) in keys.iter().enumerate() {
+                current = key.spectrum.as_deref().unwrap_or(current);
+                let course = materials::share_of_key(&times, i).times(key.brightness);
+                parts.push((course, light_of(current, report)?));
+            }
+            parts
+        }
+    };
+    Some(Lamp { rest_from_lab: placement(&light.placement).rest_from_lab(), beam, light: light_parts })
 }
 
 /// A lamp of a model file, at rest with the body that it came with.
@@ -52,7 +73,7 @@ pub(super) fn from_file(light: &import::Light, body: Placement, rest_from_asset:
     // A white of intensity I has I cd; a colour is that white through a filter.
     let white = Source::new(&Spectrum::DAYLIGHT, 1.0).xyz().y;
     let source = Source::new(&Spectrum::Rgb(light.color.map(f64::from)), light.intensity / white);
-    Lamp { rest_from_lab: body.rest_from_lab(), beam, source }
+    Lamp { rest_from_lab: body.rest_from_lab(), beam, light: vec![(Course::Steady, source)] }
 }
 
 /// A spectral radiance of the manifest.
@@ -120,7 +141,9 @@ pub(super) fn reflectance(written: &manifest::Spectrum) -> Result<Reflectance, &
         }
         manifest::Spectrum::Scaled { factor, of } => match reflectance(of)? {
             Reflectance::Constant(value) => Ok(Reflectance::Constant(value * factor)),
-            Reflectance::Rgb(rgb) => Ok(Reflectance::Rgb(rgb.map(|channel| channel * factor))),
+            Reflectance::Rgb(rgb) | Reflectance::Extended { rgb, .. } => {
+                Ok(Reflectance::Rgb(rgb.map(|channel| channel * factor)))
+            }
             Reflectance::Table(table) => Ok(Reflectance::Table(table.scaled(*factor))),
         },
         _ => Err("a reflectance cannot be made from this kind of spectrum"),

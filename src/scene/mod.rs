@@ -2,19 +2,24 @@
 
 mod compose;
 mod light;
+mod materials;
 mod models;
+mod sky;
 
-pub use compose::{UNLIT_LUMINANCE, compose};
+pub use compose::compose;
+pub use materials::UNLIT_LUMINANCE;
 
 use crate::lamp::Lamp;
 use crate::observer::Observer;
-use crate::spacetime::{Event, Poincare, Rest, Velocity};
+use crate::spacetime::{Boost, Event, Lab, Poincare, Rest, Velocity};
 use crate::spectrum::Source;
-use crate::surface::Surface;
+use crate::surface::{Medium, Surface};
+use crate::surroundings::Surroundings;
 use crate::trace::{Effects, Lit};
+use crate::tree::Bounds;
 use crate::triangles::Triangles;
 use crate::world::{Placed, RestFrame, World};
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 use std::sync::Arc;
 
 /// Everything that is seen, and who sees it.
@@ -24,10 +29,14 @@ pub struct Scene {
     pub world: World,
     /// Surfaces, by the numbers that the world's meshes carry.
     pub surfaces: Vec<Surface>,
+    /// What fills closed bodies of glass, by the numbers that surfaces carry.
+    pub media: Vec<Medium>,
     /// Lamps.
     pub lamps: Vec<Lamp>,
-    /// Radiance that fills each body's rest frame alike from all sides.
-    pub ambient: Option<Source>,
+    /// Radiances that fill rest frames alike from all sides, by the numbers that surfaces carry.
+    pub ambient: Vec<Source>,
+    /// What is beyond all bodies.
+    pub surroundings: Vec<Sky>,
     /// Which effects are shown.
     pub effects: Effects,
     /// How many mirrors one after another are followed.
@@ -42,12 +51,24 @@ impl Scene {
         Lit {
             world: &self.world,
             surfaces: &self.surfaces,
+            media: &self.media,
             lamps: &self.lamps,
-            ambient: self.ambient.as_ref(),
+            ambient: &self.ambient,
+            surroundings: &self.surroundings,
+            see_through: self.surfaces.iter().any(Surface::lets_through),
             effects: self.effects,
             depth: self.depth,
         }
     }
+}
+
+/// What is infinitely far away.
+#[derive(Debug, Clone)]
+pub struct Sky {
+    /// Into its rest frame.
+    pub rest_from_lab: Boost<Rest, Lab>,
+    /// What is seen there.
+    pub sky: Surroundings,
 }
 
 /// Where a body is: the event at which its own clock reads zero, and its velocity.
@@ -73,7 +94,7 @@ pub struct WorldBuilder {
 }
 
 impl WorldBuilder {
-    /// Adds a mesh of a body. A singular map adds nothing.
+    /// Adds a mesh of a body, and says how large it is in its rest frame. A singular map adds nothing.
     pub fn add(
         &mut self,
         body: u32,
@@ -81,18 +102,24 @@ impl WorldBuilder {
         triangles: &Arc<Triangles>,
         rest_from_mesh: DAffine3,
         surfaces: u32,
-    ) {
+    ) -> Bounds {
         let shared = self.frames.iter().position(|(first, _)| first.velocity == placement.velocity);
         let index = shared.unwrap_or_else(|| {
             self.frames.push((placement, Vec::new()));
             self.frames.len() - 1
         });
         let (first, placed) = &mut self.frames[index];
-        // Bodies that share a rest frame differ by where they stand in it (their clocks play no part in meshes at rest).
+        // Bodies that share a rest frame differ by where they stand in it and by when their clocks read zero.
         let rest_from_lab: Poincare<Rest> = first.rest_from_lab();
-        let shift: DVec3 = (rest_from_lab * placement.origin).x;
-        let rest_from_mesh = DAffine3::from_translation(shift) * rest_from_mesh;
-        placed.extend(Placed::new(triangles.clone(), rest_from_mesh, body, surfaces));
+        let Event { t, x, .. }: Event<Rest> = rest_from_lab * placement.origin;
+        let rest_from_mesh = DAffine3::from_translation(x) * rest_from_mesh;
+        let Some(mut new) = Placed::new(triangles.clone(), rest_from_mesh, body, surfaces) else {
+            return Bounds::EMPTY;
+        };
+        let bounds = new.bounds();
+        new.clock_zero = t;
+        placed.push(new);
+        bounds
     }
 
     /// Builds the trees over the bodies.

@@ -15,9 +15,45 @@ pub enum Reflectance {
     /// a colour says nothing, the reflectance is the mean of the three channels.
     /// Source: Mallett and Yuksel, EGSR 2019 (curves solved anew, with their ends set to 1/3).
     Rgb([f64; 3]),
+    /// The same, with something else said of what no eye sees.
+    Extended {
+        /// Linear sRGB.
+        rgb: [f64; 3],
+        /// Below 400 and above 700 nm.
+        beyond: Beyond,
+    },
     /// Measured; its ends go on.
     Table(Table),
 }
+
+/// What a colour means at one end of the visible wavelengths and beyond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// The mean of the three channels: what is seen in that light is a grey picture, on the average as bright.
+    Mean,
+    /// As at the end of what is seen.
+    Hold,
+    /// Known to be this.
+    Value(f64),
+}
+
+/// What a colour means in the ultraviolet and in the infrared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beyond {
+    /// Below 400 nm, fully from 360 nm.
+    pub ultraviolet: End,
+    /// Above 700 nm, fully from 740 nm.
+    pub infrared: End,
+}
+
+impl Beyond {
+    /// The mean at both ends, which is what the primaries' curves do by themselves.
+    pub const MEAN: Self = Self { ultraviolet: End::Mean, infrared: End::Mean };
+}
+
+/// Where a colour says something, nm, and over how much it goes over to what is said beyond.
+const SAID_NM: (f64, f64) = (400.0, 700.0);
+const OVER_NM: f64 = 40.0;
 
 /// First wavelength of the primaries' curves, nm, and the step between their rows.
 const FIRST_NM: f64 = 380.0;
@@ -35,6 +71,7 @@ impl Reflectance {
         match self {
             Self::Constant(value) => *value,
             Self::Rgb(rgb) => rgb_at(&PRIMARIES, *rgb, wavelength_nm),
+            Self::Extended { rgb, beyond } => extended(*rgb, *beyond, wavelength_nm),
             Self::Table(table) => table.at(wavelength_nm),
         }
     }
@@ -52,8 +89,22 @@ impl Reflectance {
                 }
                 values
             }
+            Self::Extended { rgb, beyond } => wavelengths_nm.map(|nm| extended(*rgb, *beyond, nm)),
             Self::Table(table) => wavelengths_nm.map(|nm| table.at(nm)),
         }
+    }
+}
+
+fn extended(rgb: [f64; 3], beyond: Beyond, wavelength_nm: f64) -> f64 {
+    let held = wavelength_nm.clamp(SAID_NM.0, SAID_NM.1);
+    let end = if wavelength_nm < SAID_NM.0 { beyond.ultraviolet } else { beyond.infrared };
+    let over = ((wavelength_nm - held).abs() / OVER_NM).min(1.0);
+    let at = |nm: f64| rgb_at(&PRIMARIES, rgb, nm);
+    match end {
+        _ if over == 0.0 => at(wavelength_nm),
+        End::Mean => at(wavelength_nm),
+        End::Hold => at(held),
+        End::Value(value) => at(held) + (value - at(held)) * over,
     }
 }
 

@@ -156,6 +156,11 @@ impl Source {
         sum
     }
 
+    /// Whether nothing is in it.
+    pub fn is_dark(&self) -> bool {
+        self.smooth.is_empty() && self.lines.is_empty()
+    }
+
     /// The lines, wavelengths in the source's rest frame.
     pub fn lines(&self) -> &[Line] {
         &self.lines

@@ -248,6 +248,16 @@ impl<'s> Lobes<'s> {
 }
 
 impl Response {
+    /// With so much of another besides. (Only one of the two may be a bare metal's.)
+    pub(crate) fn plus(self, other: Self, factor: f64) -> Self {
+        Self {
+            base: self.base + other.base * factor,
+            tint: self.tint + other.tint * factor,
+            white: self.white + other.white * factor,
+            cosine: self.cosine.max(other.cosine),
+        }
+    }
+
     fn times(self, factor: f64) -> Self {
         Self {
             base: self.base * factor,

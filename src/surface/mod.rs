@@ -8,6 +8,7 @@ mod veil;
 
 pub use glass::{Absorption, Glass, Medium};
 pub use gloss::{Clearcoat, Gloss, Polish};
+pub(crate) use gloss::{Lobes, Reflection, Response};
 pub use microfacet::{fade, highlight};
 pub use paint::{Checker, Colors, Paint, Tint};
 pub use veil::{Coverage, NormalMap, Veil};
@@ -72,6 +73,17 @@ impl Surface {
         Self { glow: Some(glow), ..Self::new(Scatter::Absorb) }
     }
 
+    /// Lit by a fill light, itself and all that it is made of.
+    pub fn in_ambient(mut self, ambient: u32) -> Self {
+        self.ambient = ambient;
+        if let Scatter::Mixed(parts) = &mut self.scatter {
+            for (_, part) in parts {
+                *part = part.clone().in_ambient(ambient);
+            }
+        }
+        self
+    }
+
     /// The surfaces of which it is made at one time or another, itself included.
     pub fn all(&self) -> Vec<&Self> {
         match &self.scatter {
@@ -84,8 +96,20 @@ impl Surface {
 
     /// Whether light may get through it.
     pub fn lets_through(&self) -> bool {
-        let lets = |part: &&Self| part.veil.is_some() || matches!(part.scatter, Scatter::Glass(_));
-        self.all().iter().any(lets)
+        let part = match &self.scatter {
+            Scatter::Mixed(parts) => parts.iter().any(|(_, part)| part.lets_through()),
+            scatter => matches!(scatter, Scatter::Glass(_)),
+        };
+        part || self.veil.is_some()
+    }
+
+    /// The number of the medium that it encloses.
+    pub fn medium(&self) -> Option<u32> {
+        match &self.scatter {
+            Scatter::Glass(glass) => (!glass.thin).then_some(glass.medium),
+            Scatter::Mixed(parts) => parts.iter().find_map(|(_, part)| part.medium()),
+            _ => None,
+        }
     }
 }
 

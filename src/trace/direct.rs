@@ -109,18 +109,24 @@ impl Lit<'_> {
                 continue;
             }
             let mut intensity = source.at_each(&at_lamp);
-            self.filter(light.passage, light.omega, seen.shift, &seen.nm, &mut intensity);
+            self.filter(light.passage, light.connection, light.omega, &seen.nm, &mut intensity);
             arriving.add(&intensity, factor, response, lobes.metal, &seen.nm);
             for line in source.lines() {
                 // A line's power is integrated over the wavelength, which shrinks by the shift.
                 let wavelength_nm = line.wavelength_nm / shift;
                 let mut passes = [1.0];
-                self.filter(light.passage, light.omega, seen.shift, &[wavelength_nm], &mut passes);
+                self.filter(light.passage, light.connection, light.omega, &[wavelength_nm], &mut passes);
                 let power = line.power * factor / shift * passes[0] * lobes.at(response, wavelength_nm);
                 self.add_line(line, wavelength_nm, power, seen, gathered);
             }
         }
     }
+}
+
+/// What a bare metal throws back at an angle.
+fn reflects(metal: &Metal, cosine: f64, nm: f64) -> f64 {
+    let (n, k) = metal.at(nm);
+    crate::fresnel::conductor(cosine, n, k)
 }
 
 /// A lamp's light where it arrives.
@@ -130,7 +136,7 @@ struct FromLamp<'l> {
     // Its frequency at the surface, in the units of the connection.
     omega: f64,
     cosine: f64,
-    passage: &'l super::passage::Passage,
+    passage: &'l super::passage::Passage<'l>,
 }
 
 impl<const N: usize> Arriving<N> {
@@ -151,7 +157,7 @@ impl<const N: usize> Arriving<N> {
             self.reflected = true;
             for (i, value) in light.iter().enumerate() {
                 self.tint[i] += factor * response.tint * value;
-                self.white[i] += factor * response.white * value * metal.map_or(1.0, |metal| metal.reflects(response.cosine, nm[i]));
+                self.white[i] += factor * response.white * value * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
             }
         }
     }

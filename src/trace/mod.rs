@@ -16,10 +16,10 @@ mod passage;
 mod split;
 
 use crate::lamp::Lamp;
-use crate::spacetime::{Doppler, Event, FourVector, SightRay};
+use crate::spacetime::{Doppler, Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
-use crate::surroundings::Surroundings;
+use crate::scene::Sky;
 use crate::world::{Hit, Spot, World};
 use glam::DVec3;
 use medium::Inside;
@@ -66,7 +66,7 @@ pub struct Lit<'a> {
     /// Radiances that fill rest frames alike from all sides, by the numbers that surfaces give.
     pub ambient: &'a [Source],
     /// What is beyond all bodies.
-    pub surroundings: &'a [Surroundings],
+    pub surroundings: &'a [Sky],
     /// Whether any surface lets light through.
     pub see_through: bool,
     /// What is shown.
@@ -372,7 +372,7 @@ impl Lit<'_> {
         gathered: &mut Gathered<N>,
     ) {
         for surroundings in self.surroundings {
-            let k = surroundings.rest_from_lab * self.escaped(leg);
+            let k: FourVector<Rest> = surroundings.rest_from_lab * self.escaped(leg);
             let shift = self.effects.shift(k.t);
             let sigma = path.cone.pixel / k.t;
             let mut radiance = surroundings.sky.radiance(-k.x / k.x.length(), sigma, &scaled(lanes, 1.0 / shift));

@@ -106,7 +106,7 @@ impl Lit<'_> {
         let blocked = if self.see_through {
             self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
                 let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
-                if !surface.lets_through_at_all() {
+                if !surface.lets_through() {
                     return true;
                 }
                 let spot = hit.spot(ray);

@@ -15,4 +15,4 @@ pub(crate) use numbers::{
     Dice, angle, beta, close, edge, emission_time, near, near_vector, speed, v, vectors, velocities,
 };
 pub(crate) use stage::{Body, Eye, Lantern, Stage};
-pub(crate) use surfaces::{black, black_body, diffuse, flat, glowing, line, mirror};
+pub(crate) use surfaces::{black, black_body, diffuse, flat, glass, glowing, line, mirror};

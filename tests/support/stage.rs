@@ -4,10 +4,11 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::sync::Arc;
 use terrell::lamp::{Beam, Lamp};
 use terrell::observer::{Aim, Observer};
-use terrell::scene::{Placement, Scene, WorldBuilder};
+use terrell::scene::{Placement, Scene, Sky, WorldBuilder};
 use terrell::spacetime::{Course, Event, Poincare, SightRay, Velocity, Worldline};
 use terrell::spectrum::Source;
-use terrell::surface::Surface;
+use terrell::spectrum::Index;
+use terrell::surface::{Absorption, Glass, Medium, Scatter, Surface};
 use terrell::trace::Effects;
 use terrell::triangles::Triangles;
 
@@ -18,13 +19,30 @@ pub(crate) struct Body {
     pub(crate) placement: Placement,
     pub(crate) rest_from_mesh: DAffine3,
     pub(crate) surface: Surface,
+    pub(crate) index: Index,
+    pub(crate) absorption: Option<Absorption>,
 }
 
 impl Body {
     /// At rest at the origin.
     pub(crate) fn new(mesh: &Arc<Triangles>, surface: Surface) -> Self {
         let placement = Placement { origin: Event::ORIGIN, velocity: Velocity::REST };
-        Self { mesh: mesh.clone(), placement, rest_from_mesh: DAffine3::IDENTITY, surface }
+        Self { mesh: mesh.clone(), placement, rest_from_mesh: DAffine3::IDENTITY, surface, index: Index::Constant(1.0), absorption: None }
+    }
+
+    /// Filled with glass.
+    pub(crate) fn filled(mut self, index: Index) -> Self {
+        self.index = index;
+        self
+    }
+
+    /// Its surface, when it is body number `number`.
+    fn surface(&self, number: u32) -> Surface {
+        let mut surface = self.surface.clone();
+        if let Scatter::Glass(glass) = &mut surface.scatter {
+            **glass = Glass { medium: number, index: self.index, ..*glass.clone() };
+        }
+        surface
     }
 
     /// Its centre passes through this event.
@@ -94,7 +112,7 @@ impl Lantern {
         Lamp {
             rest_from_lab: Poincare::to_moving(self.velocity, self.origin),
             beam: self.beam,
-            source: self.source.clone(),
+            light: vec![(terrell::course::Course::Steady, self.source.clone())],
         }
     }
 }
@@ -105,6 +123,7 @@ pub(crate) struct Stage {
     pub(crate) bodies: Vec<Body>,
     pub(crate) lamps: Vec<Lantern>,
     pub(crate) ambient: Option<Source>,
+    pub(crate) surroundings: Vec<Sky>,
     pub(crate) effects: Effects,
     pub(crate) depth: u32,
 }
@@ -113,7 +132,7 @@ impl Stage {
     /// With bodies.
     pub(crate) fn of(bodies: impl IntoIterator<Item = Body>) -> Self {
         let bodies = bodies.into_iter().collect();
-        Self { bodies, lamps: Vec::new(), ambient: None, effects: Effects::ALL, depth: 8 }
+        Self { bodies, lamps: Vec::new(), ambient: None, surroundings: Vec::new(), effects: Effects::ALL, depth: 8 }
     }
 
     /// With lamps.
@@ -131,13 +150,27 @@ impl Stage {
         }
         Scene {
             world: world.build(),
-            surfaces: self.bodies.iter().map(|body| body.surface.clone()).collect(),
+            surfaces: (0..).zip(&self.bodies).map(|(number, body)| body.surface(number)).collect(),
             lamps: self.lamps.iter().map(Lantern::lamp).collect(),
-            ambient: self.ambient.clone(),
+            media: self.media(),
+            ambient: vec![self.ambient.clone().unwrap_or_default()],
+            surroundings: self.surroundings.clone(),
             effects: self.effects,
             depth: self.depth,
             observer: eye.observer(),
         }
+    }
+
+    /// What fills bodies of glass: that of body number i is medium number i (others are not asked for theirs).
+    fn media(&self) -> Vec<Medium> {
+        let glass = self.bodies.iter().any(|body| body.surface.medium().is_some());
+        let medium = |body: &Body| Medium {
+            index: body.index,
+            absorption: body.absorption.clone(),
+            rest_from_lab: body.placement.rest_from_lab().boost(),
+            volume: body.rest_from_mesh.matrix3.determinant().abs(),
+        };
+        if glass { self.bodies.iter().map(medium).collect() } else { Vec::new() }
     }
 
     /// The scene, for sight rays that come from elsewhere.
