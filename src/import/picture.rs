@@ -67,7 +67,7 @@ fn picture(image: DynamicImage) -> Option<Picture> {
         DynamicImage::ImageRgba32F(b) => (Texels::Float(finite(four(&b, 1.0))), Encoding::Linear),
         _ => return None,
     };
-    Some(Picture { width, height, texels, encoding })
+    Some(Picture::new(width, height, texels, encoding))
 }
 
 /// Grey spread over three channels, and full alpha where there is none.

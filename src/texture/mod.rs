@@ -2,10 +2,18 @@
 //!
 //! Texels are kept in the width of the file (8 or 16 bits or float) and decoded when they are looked up.
 //! All values that leave this module are linear: sRGB is decoded here and nowhere else.
+//!
+//! [`Texture::rgba`] is the value at a point, [`Texture::over`] the mean over what a sample sees.
+
+mod filter;
+mod pyramid;
 
 use glam::{DAffine2, DVec2};
 use std::fmt;
 use std::sync::{Arc, LazyLock};
+
+pub use filter::Footprint;
+pub use pyramid::Pyramid;
 
 /// How stored numbers become linear ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +56,7 @@ pub struct Picture {
     pub texels: Texels,
     /// What the numbers mean.
     pub encoding: Encoding,
+    pyramid: pyramid::Lazy,
 }
 
 /// What happens beyond the edge of a texture.
@@ -101,6 +110,16 @@ static SRGB_WORDS: LazyLock<Vec<f32>> =
     LazyLock::new(|| (0..=u16::MAX).map(|i| linear_from_srgb(f32::from(i) / 65535.0)).collect());
 
 impl Picture {
+    /// A picture of `width * height` texels, row by row from the top.
+    pub fn new(width: u32, height: u32, texels: Texels, encoding: Encoding) -> Self {
+        Self { width, height, texels, encoding, pyramid: pyramid::Lazy::default() }
+    }
+
+    /// Columns and rows.
+    fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+
     /// The linear RGBA of the texel at a column and a row, which must be inside.
     fn texel(&self, column: usize, row: usize) -> [f32; 4] {
         let at = row * self.width as usize + column;
@@ -150,6 +169,15 @@ impl Wrap {
         };
         inside.clamp(0, size - 1) as usize
     }
+
+    /// The two texels of a row of `size` between whose centres a coordinate lies, and the share of the second.
+    #[inline]
+    fn between(self, u: f64, size: u32) -> ([usize; 2], f32) {
+        let x = self.coordinate(u) * f64::from(size) - 0.5;
+        let first = floor(x);
+        let texel = |i: f64| self.texel(i as i64, size);
+        ([texel(first), texel(first + 1.0)], (x - first) as f32)
+    }
 }
 
 impl Texture {
@@ -161,21 +189,32 @@ impl Texture {
     pub fn rgba(&self, uv: DVec2) -> [f32; 4] {
         let uv = self.transform.transform_point2(uv);
         let picture = &*self.picture;
-        let x = self.wrap[0].coordinate(uv.x) * f64::from(picture.width);
-        let y = self.wrap[1].coordinate(uv.y) * f64::from(picture.height);
-        let column = |i: f64| self.wrap[0].texel(i as i64, picture.width);
-        let row = |i: f64| self.wrap[1].texel(i as i64, picture.height);
+        let size = [picture.width, picture.height];
         if self.filter == Filter::Nearest {
-            return picture.texel(column(x.floor()), row(y.floor()));
+            let [column, row] = [0, 1].map(|i| {
+                let x = self.wrap[i].coordinate(uv[i]) * f64::from(size[i]);
+                self.wrap[i].texel(floor(x) as i64, size[i])
+            });
+            return picture.texel(column, row);
         }
-        let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
-        let (right, down) = ((x - 0.5 - left) as f32, (y - 0.5 - top) as f32);
-        let columns = [column(left), column(left + 1.0)];
-        let rows = [row(top), row(top + 1.0)];
-        let [upper, lower] =
-            rows.map(|row| mix(picture.texel(columns[0], row), picture.texel(columns[1], row), right));
+        self.bilinear(uv, size, |column, row| picture.texel(column, row))
+    }
+
+    /// The value at a pair of the picture's coordinates in a grid of texels of its own or another size.
+    #[inline]
+    fn bilinear(&self, uv: DVec2, size: [u32; 2], texel: impl Fn(usize, usize) -> [f32; 4]) -> [f32; 4] {
+        let [(columns, right), (rows, down)] =
+            [self.wrap[0].between(uv.x, size[0]), self.wrap[1].between(uv.y, size[1])];
+        let [upper, lower] = rows.map(|row| mix(texel(columns[0], row), texel(columns[1], row), right));
         mix(upper, lower, down)
     }
+}
+
+/// The largest whole number up to `x`, for numbers that fit 64 bits: no call, which `f64::floor` is on a bare x86-64.
+#[inline]
+fn floor(x: f64) -> f64 {
+    let toward_zero = x as i64 as f64;
+    if toward_zero > x { toward_zero - 1.0 } else { toward_zero }
 }
 
 /// `a` for a share of 0, `b` for a share of 1.
@@ -193,7 +232,7 @@ mod tests {
         let height = reds.len() as u32 / width;
         let texels =
             reds.iter().enumerate().map(|(i, &r)| [r, 0.0, 0.0, (i as u32 / width) as f32]).collect();
-        let picture = Picture { width, height, texels: Texels::Float(texels), encoding: Encoding::Linear };
+        let picture = Picture::new(width, height, Texels::Float(texels), Encoding::Linear);
         Texture {
             picture: Arc::new(picture),
             wrap: [wrap; 2],
@@ -271,7 +310,7 @@ mod tests {
     #[test]
     fn colours_are_decoded_before_they_are_mixed_and_alpha_is_not_decoded() {
         let texels = vec![[0, 0, 0, 0], [255, 255, 255, 255]];
-        let picture = |texels, encoding| Picture { width: 2, height: 1, texels, encoding };
+        let picture = |texels, encoding| Picture::new(2, 1, texels, encoding);
         let mut texture = texture(1, &[0.0], Wrap::Clamp, Filter::Linear);
         texture.picture = Arc::new(picture(Texels::Byte(texels), Encoding::Srgb));
         assert_eq!(texture.rgba(DVec2::new(0.5, 0.5)), [0.5; 4]);
