@@ -115,6 +115,11 @@ impl Picture {
         Self { width, height, texels, encoding, pyramid: pyramid::Lazy::default() }
     }
 
+    /// Columns and rows.
+    fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+
     /// The linear RGBA of the texel at a column and a row, which must be inside.
     fn texel(&self, column: usize, row: usize) -> [f32; 4] {
         let at = row * self.width as usize + column;
@@ -197,12 +202,7 @@ impl Texture {
 
     /// The value at a pair of the picture's coordinates in a grid of texels of its own or another size.
     #[inline]
-    fn bilinear(
-        &self,
-        uv: DVec2,
-        size: [u32; 2],
-        texel: impl Fn(usize, usize) -> [f32; 4],
-    ) -> [f32; 4] {
+    fn bilinear(&self, uv: DVec2, size: [u32; 2], texel: impl Fn(usize, usize) -> [f32; 4]) -> [f32; 4] {
         let [(columns, right), (rows, down)] =
             [self.wrap[0].between(uv.x, size[0]), self.wrap[1].between(uv.y, size[1])];
         let [upper, lower] = rows.map(|row| mix(texel(columns[0], row), texel(columns[1], row), right));
