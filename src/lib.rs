@@ -24,6 +24,7 @@ pub mod output;
 pub mod plan;
 pub mod render;
 pub mod scene;
+pub mod solid;
 pub mod spacetime;
 pub mod spectrum;
 pub mod surface;

@@ -20,6 +20,7 @@ mod movie;
 mod output;
 mod radiance;
 mod shadow;
+mod solid;
 mod spectrum;
 mod support;
 mod terrell;
