@@ -13,6 +13,7 @@ pub mod diagnostic;
 pub mod error;
 pub mod exposure;
 pub mod film;
+pub mod fresnel;
 pub mod import;
 pub mod lamp;
 pub mod manifest;

@@ -5,13 +5,17 @@
 //! no sample: it is kept apart ([`Line`]) and carried exactly.
 
 mod blackbody;
+mod index;
 mod lanes;
+mod metal;
 mod reflectance;
 mod source;
 mod table;
 
 pub use blackbody::planck;
+pub use index::Index;
 pub use lanes::Wavelengths;
+pub use metal::Metal;
 pub use reflectance::Reflectance;
 pub use source::{Illuminant, Line, Source, Spectrum};
 pub use table::{D65, Table, rows};
