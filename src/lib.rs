@@ -26,6 +26,7 @@ pub mod scene;
 pub mod spacetime;
 pub mod spectrum;
 pub mod surface;
+pub mod surroundings;
 pub mod texture;
 pub mod trace;
 pub mod tree;

@@ -23,6 +23,7 @@ mod radiance;
 mod shadow;
 mod spectrum;
 mod support;
+mod surroundings;
 mod terrell;
 mod tint;
 mod tree;

@@ -1,0 +1,168 @@
+//! Stars: points that shine as black bodies.
+
+use super::bands::Bands;
+use super::seeded::{Kinds, seeded};
+use crate::color;
+use crate::spectrum::planck;
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
+
+/// The illuminance that a star of visual magnitude 0 gives outside the atmosphere, lx.
+///
+/// Source: Allen, Astrophysical Quantities, 3rd ed. (1973): 2.54e-10 phot.
+pub const MAGNITUDE_ZERO_LX: f64 = 2.54e-6;
+/// No star is cooler, kelvin.
+pub const COOLEST_K: f64 = 500.0;
+/// No star is hotter, kelvin.
+pub const HOTTEST_K: f64 = 1e7;
+/// Most stars of a sky.
+pub const MOST_STARS: usize = 1_000_000;
+
+/// The kernel ends at this many times its width.
+const CUT: f64 = 4.0;
+/// Narrowest kernel, radians: directions are not known better.
+const NARROWEST: f64 = 1e-9;
+/// Widest kernel, radians: all around alike.
+const WIDEST: f64 = 1e3;
+
+/// A star.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Star {
+    /// Where it stands, of any length.
+    pub direction: DVec3,
+    /// Temperature.
+    pub kelvin: f64,
+    /// Lux on a surface that faces it.
+    pub illuminance: f64,
+}
+
+impl Star {
+    /// A star of a visual magnitude.
+    pub fn of_magnitude(direction: DVec3, kelvin: f64, magnitude: f64) -> Self {
+        Self { direction, kelvin, illuminance: MAGNITUDE_ZERO_LX * libm::pow(10.0, -0.4 * magnitude) }
+    }
+}
+
+/// Stars, sorted by where they stand.
+#[derive(Debug, Clone)]
+pub struct Stars {
+    bands: Bands,
+    points: Vec<Point>,
+}
+
+/// A star as it is needed when it is looked at.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    direction: DVec3,
+    kelvin: f64,
+    /// Spectral irradiance over the radiance of a black body.
+    factor: f64,
+}
+
+impl Stars {
+    /// The first [`MOST_STARS`] stars, temperatures brought between [`COOLEST_K`] and [`HOTTEST_K`]; those without a direction
+    /// or without a finite brightness above zero are left out.
+    pub fn new(stars: impl IntoIterator<Item = Star>) -> Self {
+        let points: Vec<Point> = stars.into_iter().take(MOST_STARS).filter_map(point).collect();
+        let directions: Vec<DVec3> = points.iter().map(|point| point.direction).collect();
+        let (bands, order) = Bands::new(&directions);
+        Self { bands, points: order.iter().map(|i| points[*i as usize]).collect() }
+    }
+
+    /// Stars strewn evenly over the sky: see [`seeded`].
+    pub fn seeded(seed: u64, count: usize, kinds: Kinds) -> Self {
+        Self::new(seeded(seed, count, kinds))
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The spectral radiance (W m⁻² sr⁻¹ nm⁻¹) of the stars near a direction `d` (a unit vector), each spread over the solid
+    /// angle by a kernel of width `sigma` (radians):
+    ///
+    /// ~~~text
+    /// L(λ) = Σ E(λ) κ/(2π (1 - exp(-κc))) exp(-κ (1 - cos θ))     for 1 - cos θ < c = 8σ² (at most 2),  κ = 1/σ²
+    /// ~~~
+    ///
+    /// This is von Mises and Fisher's distribution, cut at 4σ: a Gaussian where it is narrow, and for any width a
+    /// kernel whose integral over the sphere is 1. So a pixel of any size gets the whole of a star's light, once.
+    pub fn radiance<const N: usize>(&self, d: DVec3, sigma: f64, nm: &[f64; N]) -> [f64; N] {
+        let sigma = sigma.max(NARROWEST).min(WIDEST);
+        let kappa = 1.0 / (sigma * sigma);
+        // Squares of chords: 2 (1 - cos θ), without its rounding where it is small.
+        let cut = CUT * CUT * sigma * sigma;
+        let (cut, radius) =
+            if cut < 4.0 { (cut, 2.0 * libm::asin(0.5 * CUT * sigma)) } else { (f64::INFINITY, PI) };
+        let peak = kappa / (TAU * -libm::expm1(-0.5 * kappa * cut.min(4.0)));
+        let mut sum = [0.0; N];
+        self.bands.near(d, radius, |stretch| {
+            for star in &self.points[stretch] {
+                let chord2 = (d - star.direction).length_squared();
+                if chord2 < cut {
+                    let weight = star.factor * peak * libm::exp(-0.5 * kappa * chord2);
+                    for (sum, nm) in sum.iter_mut().zip(nm) {
+                        *sum += weight * planck(*nm, star.kelvin);
+                    }
+                }
+            }
+        });
+        sum
+    }
+}
+
+fn point(star: Star) -> Option<Point> {
+    let direction = star.direction.try_normalize()?;
+    let kelvin = star.kelvin.max(COOLEST_K).min(HOTTEST_K);
+    let factor = star.illuminance / luminance(kelvin);
+    (factor > 0.0 && factor.is_finite()).then_some(Point { direction, kelvin, factor })
+}
+
+/// Steps between the coolest and the hottest, in the logarithm of the temperature.
+const STEPS: usize = 1000;
+
+/// The logarithm of the luminance at each step, and of one more before and behind.
+static LUMINANCES: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let luminance = |i: usize| {
+        let kelvin = COOLEST_K * libm::exp((i as f64 - 1.0) * step());
+        libm::log(color::xyz_of(|nm| planck(nm, kelvin)).y)
+    };
+    (0..STEPS + 3).map(luminance).collect()
+});
+
+fn step() -> f64 {
+    libm::log(HOTTEST_K / COOLEST_K) / STEPS as f64
+}
+
+/// The luminance of a black body, cd/m², by cubics through a table: to 1e-6 of it.
+fn luminance(kelvin: f64) -> f64 {
+    let place = (libm::log(kelvin / COOLEST_K) / step()).clamp(0.0, STEPS as f64);
+    let row = (place as usize).min(STEPS - 1);
+    let part = place - row as f64;
+    let [a, b, c, d] = std::array::from_fn(|i| LUMINANCES[row + i]);
+    // Catmull and Rom's.
+    let bend = 2.0 * a - 5.0 * b + 4.0 * c - d + part * (3.0 * (b - c) + d - a);
+    libm::exp(b + 0.5 * part * (c - a + part * bend))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn luminance_from_the_table_is_the_integral() {
+        for i in 0..200 {
+            let kelvin = COOLEST_K * libm::exp(f64::from(i) / 199.0 * libm::log(HOTTEST_K / COOLEST_K));
+            let exact = color::xyz_of(|nm| planck(nm, kelvin)).y;
+            let error = luminance(kelvin) / exact - 1.0;
+            assert!(error.abs() < 1e-6, "{kelvin}: {error:e}");
+        }
+    }
+}
