@@ -6,6 +6,7 @@ use crate::plan::Plan;
 use crate::render;
 use crate::scene::Scene;
 use crate::surface::{Scatter, Surface};
+use crate::world::{Form, Placed};
 use std::path::Path;
 
 /// Checks a manifest and prints what it needs.
@@ -20,9 +21,13 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
 
 fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     let placed = || scene.world.frames.iter().flat_map(|rest| &rest.placed);
-    let shown: usize = placed().map(|placed| placed.triangles.mesh.triangles.len()).sum();
+    let mesh = |placed: &Placed| match &placed.form {
+        Form::Mesh(triangles) => Some(triangles.clone()),
+        Form::Solid(_) => None,
+    };
+    let shown: usize = placed().filter_map(mesh).map(|triangles| triangles.mesh.triangles.len()).sum();
     let mut meshes: Vec<*const _> =
-        placed().map(|placed| std::sync::Arc::as_ptr(&placed.triangles)).collect();
+        placed().filter_map(mesh).map(|triangles| std::sync::Arc::as_ptr(&triangles)).collect();
     meshes.sort_unstable();
     meshes.dedup();
     let surfaces = || scene.surfaces.iter().flat_map(Surface::all);

@@ -2,18 +2,23 @@
 
 use super::materials::{Owner, Workshop};
 use super::models::{Chosen, Model, Models};
-use super::{Placement, Scene, WorldBuilder, light, sky};
+use super::{Placement, Scene, WorldBuilder, light, sky, solids};
 use crate::error::Report;
 use crate::import;
 use crate::manifest::{self, LookAt, Manifest, ModelFile};
 use crate::observer::{Aim, Observer, Unaberrated};
 use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
 use crate::spectrum::{Beyond, Source};
-use crate::surface::Surface;
+use crate::surface::{Paint, Scatter, Surface};
 use crate::trace::Effects;
 use crate::tree::Bounds;
+use crate::world::Form;
 use glam::{DAffine3, DVec3};
 use std::path::Path;
+use std::sync::Arc;
+
+/// What a shape without a material reflects, to all sides.
+const SHAPE_REFLECTANCE: f64 = 0.8;
 
 /// The scene that a manifest means. Reads the model files; all faults and warnings go to the report.
 pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<Scene> {
@@ -28,8 +33,12 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
         workshop: Workshop::default(),
     };
     for (number, body) in manifest.bodies.iter().enumerate() {
-        let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) else { continue };
-        gathered.add_body(number as u32, body, model, report);
+        let solid = manifest.assets.get(&body.asset.value).and_then(manifest::AssetRef::solid);
+        if let Some(solid) = solid {
+            gathered.add_solid(number as u32, body, solid, report);
+        } else if let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) {
+            gathered.add_body(number as u32, body, model, report);
+        }
     }
     for light in &manifest.lights {
         gathered.lamps.extend(light::from_manifest(light, report));
@@ -108,13 +117,38 @@ impl Gathered {
                 continue;
             };
             let rest_from_mesh = rest_from_asset * instance.asset_from_mesh;
-            bounds = bounds.with(self.world.add(number, placement, triangles, rest_from_mesh, first_surface));
+            bounds = bounds.with(self.world.add(number, placement, &Form::Mesh(triangles.clone()), rest_from_mesh, first_surface));
         }
         let volume = (bounds.hi - bounds.lo).element_product();
         self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
         let lights =
             model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
         self.lamps.extend(lights.map(|light| light::from_file(light, placement, rest_from_asset)));
+    }
+
+    fn add_solid(
+        &mut self,
+        number: u32,
+        body: &manifest::Body,
+        solid: &manifest::Solid,
+        report: &mut Report,
+    ) {
+        let Some(solid) = solids::solid(solid) else { return };
+        let placement = placement(&body.placement);
+        let rest_from_solid =
+            DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+        let first_medium = self.workshop.media.len();
+        let first_surface = self.surfaces.len() as u32;
+        let owner = Owner { place: &body.place, rest_from_lab: placement.rest_from_lab().boost() };
+        let surface = match &body.material {
+            Some(material) => self.workshop.surface(material, None, owner, report),
+            None => Surface::new(Scatter::Diffuse(Paint::grey(SHAPE_REFLECTANCE))),
+        };
+        self.add_surfaces(vec![surface], body, report);
+        let form = Form::Solid(Arc::new(solid));
+        let bounds = self.world.add(number, placement, &form, rest_from_solid, first_surface);
+        let volume = (bounds.hi - bounds.lo).element_product();
+        self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
     }
 
     fn add_surfaces(&mut self, surfaces: Vec<Surface>, body: &manifest::Body, report: &mut Report) {

@@ -5,6 +5,7 @@ mod light;
 mod materials;
 mod models;
 mod sky;
+mod solids;
 
 pub use compose::compose;
 pub use materials::UNLIT_LUMINANCE;
@@ -17,10 +18,8 @@ use crate::surface::{Medium, Surface};
 use crate::surroundings::Surroundings;
 use crate::trace::{Effects, Lit};
 use crate::tree::Bounds;
-use crate::triangles::Triangles;
-use crate::world::{Placed, RestFrame, World};
-use glam::DAffine3;
-use std::sync::Arc;
+use crate::world::{Form, Placed, RestFrame, World};
+use glam::{DAffine3, DVec3};
 
 /// Everything that is seen, and who sees it.
 #[derive(Debug, Clone)]
@@ -94,13 +93,13 @@ pub struct WorldBuilder {
 }
 
 impl WorldBuilder {
-    /// Adds a mesh of a body, and says how large it is in its rest frame. A singular map adds nothing.
+    /// Adds a mesh or a solid of a body, and says how large it is in its rest frame. A singular map adds nothing.
     pub fn add(
         &mut self,
         body: u32,
         placement: Placement,
-        triangles: &Arc<Triangles>,
-        rest_from_mesh: DAffine3,
+        form: &Form,
+        rest_from_form: DAffine3,
         surfaces: u32,
     ) -> Bounds {
         let shared = self.frames.iter().position(|(first, _)| first.velocity == placement.velocity);
@@ -112,11 +111,12 @@ impl WorldBuilder {
         // Bodies that share a rest frame differ by where they stand in it and by when their clocks read zero.
         let rest_from_lab: Poincare<Rest> = first.rest_from_lab();
         let Event { t, x, .. }: Event<Rest> = rest_from_lab * placement.origin;
-        let rest_from_mesh = DAffine3::from_translation(x) * rest_from_mesh;
-        let Some(mut new) = Placed::new(triangles.clone(), rest_from_mesh, body, surfaces) else {
+        let rest_from_form = DAffine3::from_translation(x) * rest_from_form;
+        let Some(mut new) = Placed::new(form.clone(), rest_from_form, body, surfaces) else {
             return Bounds::EMPTY;
         };
-        let bounds = new.bounds();
+        let endless = Bounds { lo: DVec3::NEG_INFINITY, hi: DVec3::INFINITY };
+        let bounds = new.bounds().unwrap_or(endless);
         new.clock_zero = t;
         placed.push(new);
         bounds

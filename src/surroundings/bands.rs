@@ -122,7 +122,9 @@ mod tests {
     use crate::surroundings::{Kinds, seeded};
 
     fn directions(seed: u64, count: usize) -> Vec<DVec3> {
-        seeded(seed, count, Kinds::Alike { kelvin: 5000.0, magnitude: 0.0 }).map(|star| star.direction).collect()
+        seeded(seed, count, Kinds::Alike { kelvin: 5000.0, magnitude: 0.0 })
+            .map(|star| star.direction)
+            .collect()
     }
 
     /// Random points, points on the axes and close by, and many in one place.

@@ -84,7 +84,11 @@ fn row(kept: &str, place: impl Fn(usize, usize) -> Place, report: &mut Report) -
             }
             Err(_) => {
                 sound = false;
-                report.fault(here(), format!("the {name} `{written}` is not a number"), format!("type {hint}"));
+                report.fault(
+                    here(),
+                    format!("the {name} `{written}` is not a number"),
+                    format!("type {hint}"),
+                );
             }
         }
         at += cell.len() + 1;

@@ -12,7 +12,7 @@ mod stars;
 pub use catalogue::parse_catalogue;
 pub use panorama::Panorama;
 pub use seeded::{Kinds, seeded};
-pub use stars::{HOTTEST_K, MAGNITUDE_ZERO_LX, MOST_STARS, Star, Stars, COOLEST_K};
+pub use stars::{COOLEST_K, HOTTEST_K, MAGNITUDE_ZERO_LX, MOST_STARS, Star, Stars};
 
 use crate::spectrum::{Line, Source};
 use glam::DVec3;
@@ -38,15 +38,15 @@ pub enum Part {
 impl Surroundings {
     /// The spectral radiance (W m⁻² sr⁻¹ nm⁻¹) that comes from the direction `d`, without spectral lines.
     ///
-    /// `d` is the unit vector towards the sky, `sigma` the half angle (radians) of the cone of sight and `nm` the
+    /// `d` is the unit vector towards the sky, `cone` half the angles (radians) between samples and between pixels and `nm` the
     /// wavelengths, all in the rest frame of the surroundings.
-    pub fn radiance<const N: usize>(&self, d: DVec3, sigma: f64, nm: &[f64; N]) -> [f64; N] {
+    pub fn radiance<const N: usize>(&self, d: DVec3, (sample, pixel): (f64, f64), nm: &[f64; N]) -> [f64; N] {
         let mut sum = [0.0; N];
         for part in &self.parts {
             let radiance = match part {
                 Part::Uniform(source) => source.at_each(nm),
-                Part::Panorama(panorama) => panorama.radiance(d, sigma, nm),
-                Part::Stars(stars) => stars.radiance(d, sigma, nm),
+                Part::Panorama(panorama) => panorama.radiance(d, sample, nm),
+                Part::Stars(stars) => stars.radiance(d, pixel, nm),
             };
             for (sum, radiance) in sum.iter_mut().zip(radiance) {
                 *sum += radiance;

@@ -2,7 +2,7 @@
 
 use crate::color;
 use crate::spectrum::{D65, Reflectance};
-use crate::texture::{Filter, Picture, Texture, Wrap};
+use crate::texture::{Filter, Footprint, Picture, Texture, Wrap};
 use glam::{DAffine2, DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
 use std::sync::Arc;
@@ -46,8 +46,12 @@ impl Panorama {
     }
 
     /// Linear RGB around a direction. (The one place that knows how a picture is averaged over a cone.)
-    fn rgb(&self, d: DVec3, _sigma: f64) -> [f64; 3] {
-        let [r, g, b, _] = self.texture.rgba(place(self.inverse * d));
+    fn rgb(&self, d: DVec3, sigma: f64) -> [f64; 3] {
+        let d = self.inverse * d;
+        // Near the poles a circle is stretched along the rows.
+        let (down, across) = (sigma * FRAC_1_PI, sigma / (TAU * libm::hypot(d.x, d.z).max(1e-9)));
+        let footprint = Footprint { u: DVec2::new(across.min(0.5), 0.0), v: DVec2::new(0.0, down.min(0.5)) };
+        let [r, g, b, _] = self.texture.over(place(d), &footprint);
         [r, g, b].map(|value| f64::from(value).max(0.0))
     }
 }

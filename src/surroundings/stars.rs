@@ -99,11 +99,8 @@ impl Stars {
         let kappa = 1.0 / (sigma * sigma);
         // Squares of chords: 2 (1 - cos θ), without its rounding where it is small.
         let cut = CUT * CUT * sigma * sigma;
-        let (cut, radius) = if cut < 4.0 {
-            (cut, 2.0 * libm::asin(0.5 * CUT * sigma))
-        } else {
-            (f64::INFINITY, PI)
-        };
+        let (cut, radius) =
+            if cut < 4.0 { (cut, 2.0 * libm::asin(0.5 * CUT * sigma)) } else { (f64::INFINITY, PI) };
         let peak = kappa / (TAU * -libm::expm1(-0.5 * kappa * cut.min(4.0)));
         let mut sum = [0.0; N];
         self.bands.near(d, radius, |stretch| {

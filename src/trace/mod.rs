@@ -374,8 +374,8 @@ impl Lit<'_> {
         for surroundings in self.surroundings {
             let k: FourVector<Rest> = surroundings.rest_from_lab * self.escaped(leg);
             let shift = self.effects.shift(k.t);
-            let sigma = path.cone.pixel / k.t;
-            let mut radiance = surroundings.sky.radiance(-k.x / k.x.length(), sigma, &scaled(lanes, 1.0 / shift));
+            let cone = (path.cone.sample / k.t, path.cone.pixel / k.t);
+            let mut radiance = surroundings.sky.radiance(-k.x / k.x.length(), cone, &scaled(lanes, 1.0 / shift));
             let gain = self.effects.gain(k.t, -5);
             for value in &mut radiance {
                 *value *= gain;

@@ -1,10 +1,9 @@
 //! Where a sight ray meets a body, and what the surface is like there.
 
-use super::placed::Placed;
+use super::placed::{Form, Met, Placed};
 use super::RestFrame;
 use crate::spacetime::{Event, FourVector, Rest, SightRay};
-use crate::triangles::Meeting;
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3};
 
 /// Where a sight ray meets a body.
 #[derive(Debug, Clone, Copy)]
@@ -13,9 +12,9 @@ pub struct Hit<'w> {
     pub s: f64,
     /// The rest frame.
     pub rest: &'w RestFrame,
-    /// The mesh.
+    /// What is met.
     pub placed: &'w Placed,
-    pub(super) meeting: Meeting,
+    pub(super) met: Met,
 }
 
 /// The surface at a hit, in the rest frame of the body.
@@ -40,7 +39,7 @@ impl Hit<'_> {
     pub fn spot(&self, ray: &SightRay) -> Spot {
         let k = self.rest.rest_from_lab * ray.k;
         let t = (self.rest.rest_from_lab * ray.at(self.s)).t;
-        let local = self.placed.local(&self.meeting);
+        let local = self.placed.local(&self.met);
         let facet = unit(local.facet_normal, k.x);
         // Seen from behind: the other side is the outside.
         let outside = facet.dot(k.x) >= 0.0;
@@ -58,32 +57,33 @@ impl Hit<'_> {
 
     /// Number of the surface met.
     pub fn surface(&self) -> usize {
-        let mesh = &self.placed.triangles.mesh;
-        self.placed.surfaces as usize + mesh.material_of(self.meeting.triangle) as usize
+        let of_mesh = match (&self.met, &self.placed.form) {
+            (Met::Triangle(meeting), Form::Mesh(triangles)) => triangles.mesh.material_of(meeting.triangle),
+            _ => 0,
+        };
+        self.placed.surfaces as usize + of_mesh as usize
     }
 
     /// Texture coordinates of one set; the upper left corner where the mesh has none.
     pub fn uv(&self, set: u8) -> DVec2 {
-        let mesh = &self.placed.triangles.mesh;
-        let uvs: &[Vec2] = mesh.uvs.get(set as usize).map_or(&[], |uvs| uvs);
-        let [a, b, c] = mesh.triangles[self.meeting.triangle as usize]
-            .map(|i| uvs.get(i as usize).map_or(DVec2::ZERO, |uv| uv.as_dvec2()));
-        let (v, w) = self.meeting.weights;
-        a + (b - a) * v + (c - a) * w
+        self.placed.uv(&self.met, set)
     }
 
     /// The vertices' colour, linear RGBA; none for a mesh without.
     pub fn vertex_color(&self) -> Option<[f32; 4]> {
-        let mesh = &self.placed.triangles.mesh;
-        let [a, b, c] = mesh.triangles[self.meeting.triangle as usize].map(|i| mesh.colors.get(i as usize));
-        let (v, w) = (self.meeting.weights.0 as f32, self.meeting.weights.1 as f32);
+        let (Met::Triangle(meeting), Form::Mesh(triangles)) = (&self.met, &self.placed.form) else {
+            return None;
+        };
+        let mesh = &triangles.mesh;
+        let [a, b, c] = mesh.triangles[meeting.triangle as usize].map(|i| mesh.colors.get(i as usize));
+        let (v, w) = (meeting.weights.0 as f32, meeting.weights.1 as f32);
         let (a, b, c) = (a?, b?, c?);
         Some(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * v + (c[i] - a[i]) * w))
     }
 
     /// What a step along the surface (rest frame) is in texture coordinates; none without any.
     pub fn uv_of(&self, set: u8, along: [DVec3; 2]) -> Option<[DVec2; 2]> {
-        let ([e1, e2], [d1, d2]) = self.placed.edges(&self.meeting, set)?;
+        let ([e1, e2], [d1, d2]) = self.placed.edges(&self.met, set)?;
         // along = β e1 + γ e2, solved in the plane of the triangle.
         let (a, b, c) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
         let det = a * c - b * b;
@@ -95,16 +95,16 @@ impl Hit<'_> {
     }
 
     /// Along growing u, and toward the upper side of the picture, both at right angles to `normal` (which looks
-    /// outward or inward), unit length: the axes of a normal map (glTF 2.0, §3.7.2.1).
+    /// outward), unit length: the axes of a normal map (glTF 2.0, §3.7.2.1).
     pub fn tangents(&self, set: u8, normal: DVec3) -> Option<(DVec3, DVec3)> {
-        let (tangent, hand) = match self.placed.tangent(&self.meeting) {
+        let (tangent, hand) = match self.placed.tangent(&self.met) {
             Some(own) => own,
             None => {
-                let ([e1, e2], [d1, d2]) = self.placed.edges(&self.meeting, set)?;
+                let ([e1, e2], [d1, d2]) = self.placed.edges(&self.met, set)?;
                 // v grows downward, as glTF has it.
                 let det = d1.x * d2.y - d1.y * d2.x;
                 let along_u = (e1 * d2.y - e2 * d1.y) * det.signum();
-                let outward = self.placed.local(&self.meeting).facet_normal;
+                let outward = self.placed.local(&self.met).facet_normal;
                 let along_v = (e2 * d1.x - e1 * d2.x) * det.signum();
                 let hand = if outward.cross(along_u).dot(along_v) > 0.0 { -1.0 } else { 1.0 };
                 (along_u, hand)

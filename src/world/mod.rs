@@ -7,39 +7,58 @@ mod hit;
 mod placed;
 
 pub use hit::{Hit, Spot};
-pub use placed::Placed;
+pub use placed::{Form, Placed};
+use placed::Met;
 
 use crate::spacetime::{Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Line, Tree};
-use crate::triangles::Meeting;
 
 /// Everything at rest in one frame.
 #[derive(Debug, Clone)]
 pub struct RestFrame {
     /// Into the frame.
     pub rest_from_lab: Poincare<Rest, Lab>,
-    /// The meshes in it.
+    /// What is in it: first all that has an end, then the rest.
     pub placed: Vec<Placed>,
+    // Over those that have an end.
     tree: Tree,
+    bounded: u32,
 }
 
 impl RestFrame {
-    /// Builds the tree over the placed meshes.
+    /// Builds the tree over what is placed.
     pub fn new(rest_from_lab: Poincare<Rest, Lab>, placed: Vec<Placed>) -> Self {
-        let boxes: Vec<Bounds> = placed.iter().map(Placed::bounds).collect();
-        Self { rest_from_lab, placed, tree: Tree::build(&boxes) }
+        let (mut placed, unbounded): (Vec<_>, Vec<_>) =
+            placed.into_iter().partition(|placed| placed.bounds().is_some());
+        let boxes: Vec<Bounds> = placed.iter().filter_map(Placed::bounds).collect();
+        let bounded = placed.len() as u32;
+        placed.extend(unbounded);
+        Self { rest_from_lab, placed, tree: Tree::build(&boxes), bounded }
     }
 
-    fn nearest(&self, ray: &SightRay, s_max: f64) -> Option<(u32, Meeting)> {
+    /// [`Tree::walk`], and then all that has no end.
+    #[inline]
+    fn walk(&self, line: &Line, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
+        let mut limit = self.tree.walk(line, s_max, &mut visit);
+        for number in self.bounded..self.placed.len() as u32 {
+            if limit < 0.0 {
+                break;
+            }
+            limit = visit(number, limit);
+        }
+        limit
+    }
+
+    fn nearest(&self, ray: &SightRay, s_max: f64) -> Option<(u32, Met)> {
         let ray = ray.to(&self.rest_from_lab);
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut nearest = None;
-        self.tree.walk(&line, s_max, |number, limit| {
+        self.walk(&line, s_max, |number, limit| {
             let placed = &self.placed[number as usize];
             match placed.nearest(&ray, limit) {
-                Some(meeting) => {
-                    nearest = Some((number, meeting));
-                    meeting.s
+                Some(met) => {
+                    nearest = Some((number, met));
+                    met.s()
                 }
                 None => limit,
             }
@@ -54,7 +73,7 @@ impl RestFrame {
             let placed = &self.placed[number as usize];
             if placed.any(&ray, limit) { -1.0 } else { limit }
         };
-        self.tree.walk(&line, s_max, met) < 0.0
+        self.walk(&line, s_max, met) < 0.0
     }
 
     fn until<'w>(&'w self, ray: &SightRay, s_max: f64, enough: &mut dyn FnMut(Hit<'w>) -> bool) -> bool {
@@ -62,10 +81,10 @@ impl RestFrame {
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let met = |number: u32, limit| {
             let placed = &self.placed[number as usize];
-            let mut met = |meeting: Meeting| enough(Hit { s: meeting.s, rest: self, placed, meeting });
+            let mut met = |met: Met| enough(Hit { s: met.s(), rest: self, placed, met });
             if placed.until(&ray, limit, &mut met) { -1.0 } else { limit }
         };
-        self.tree.walk(&line, s_max, met) < 0.0
+        self.walk(&line, s_max, met) < 0.0
     }
 }
 
@@ -82,8 +101,8 @@ impl World {
         let mut nearest: Option<Hit<'_>> = None;
         for rest in &self.frames {
             let s_max = nearest.map_or(f64::INFINITY, |hit| hit.s);
-            if let Some((number, meeting)) = rest.nearest(ray, s_max) {
-                nearest = Some(Hit { s: meeting.s, rest, placed: &rest.placed[number as usize], meeting });
+            if let Some((number, met)) = rest.nearest(ray, s_max) {
+                nearest = Some(Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met });
             }
         }
         nearest

@@ -1,77 +1,119 @@
-//! A mesh placed in the rest frame of a body.
+//! A mesh, or a solid, placed in the rest frame of a body.
 
 use crate::spacetime::{Rest, SightRay};
 use crate::tree::{Bounds, Line};
+use crate::solid::{Crossing, Solid};
 use crate::triangles::{Meeting, Triangles};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2};
 use std::sync::Arc;
 
-/// A mesh placed in the rest frame of a body.
+/// What is placed.
+#[derive(Debug, Clone)]
+pub enum Form {
+    /// A mesh and its tree, shared by all that are alike.
+    Mesh(Arc<Triangles>),
+    /// A shape without a file.
+    Solid(Arc<Solid>),
+}
+
+/// Where a line meets what is placed.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Met {
+    Triangle(Meeting),
+    // With the point, in the solid's own coordinates.
+    Solid(Crossing, DVec3),
+}
+
+impl Met {
+    pub(super) fn s(&self) -> f64 {
+        match self {
+            Self::Triangle(meeting) => meeting.s,
+            Self::Solid(crossing, _) => crossing.s,
+        }
+    }
+}
+
+/// A mesh or a solid placed in the rest frame of a body.
 #[derive(Debug, Clone)]
 pub struct Placed {
-    /// The mesh and its tree, shared by all that are alike.
-    pub triangles: Arc<Triangles>,
+    /// The mesh or the solid.
+    pub form: Form,
     /// Where it stands; not singular.
-    pub rest_from_mesh: DAffine3,
+    pub rest_from_form: DAffine3,
     /// Number of the body that it belongs to.
     pub body: u32,
     /// Number of the surface of the mesh's first material.
     pub surfaces: u32,
     /// What the rest frame's clock reads when the body's own reads zero, metres.
     pub clock_zero: f64,
-    mesh_from_rest: DAffine3,
-    rest_from_mesh_normals: DMat3,
+    // The largest coordinate of it.
+    reach: f64,
+    form_from_rest: DAffine3,
+    rest_from_form_normals: DMat3,
 }
 
 impl Placed {
-    /// Places a mesh; none if the map is singular (then nothing of it can be seen).
-    pub fn new(
-        triangles: Arc<Triangles>,
-        rest_from_mesh: DAffine3,
-        body: u32,
-        surfaces: u32,
-    ) -> Option<Self> {
-        let mesh_from_rest = rest_from_mesh.inverse();
-        // Normals go with the inverse transpose, mirrored meshes included: their outside stays outside.
-        let rest_from_mesh_normals = mesh_from_rest.matrix3.transpose();
-        mesh_from_rest.is_finite().then_some(Self {
-            triangles,
-            rest_from_mesh,
+    /// Places a form; none if the map is singular (then nothing of it can be seen).
+    pub fn new(form: Form, rest_from_form: DAffine3, body: u32, surfaces: u32) -> Option<Self> {
+        let form_from_rest = rest_from_form.inverse();
+        // Normals go with the inverse transpose, mirrored forms included: their outside stays outside.
+        let rest_from_form_normals = form_from_rest.matrix3.transpose();
+        let mut placed = Self {
+            form,
+            rest_from_form,
             body,
             surfaces,
             clock_zero: 0.0,
-            mesh_from_rest,
-            rest_from_mesh_normals,
-        })
+            reach: rest_from_form.translation.abs().max_element(),
+            form_from_rest,
+            rest_from_form_normals,
+        };
+        if let Some(Bounds { lo, hi }) = placed.bounds() {
+            placed.reach = placed.reach.max(lo.abs().max(hi.abs()).max_element());
+        }
+        form_from_rest.is_finite().then_some(placed)
     }
 
-    /// Its box in the rest frame.
-    pub fn bounds(&self) -> Bounds {
-        let corners = self.triangles.bounds().corners().map(|p| self.rest_from_mesh.transform_point3(p));
-        let bounds = Bounds::of(corners);
+    /// Its box in the rest frame; none for what has no end.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let own = match &self.form {
+            Form::Mesh(triangles) => triangles.bounds(),
+            Form::Solid(solid) => solid.bounded().then(|| solid.bounds())?,
+        };
+        let bounds = Bounds::of(own.corners().map(|p| self.rest_from_form.transform_point3(p)));
         // More than the rounding of these eight products.
         let pad = (bounds.lo.abs().max(bounds.hi.abs()).max_element()) * 1e-14;
-        Bounds { lo: bounds.lo - pad, hi: bounds.hi + pad }
+        Some(Bounds { lo: bounds.lo - pad, hi: bounds.hi + pad })
     }
 
     #[inline]
     fn line(&self, ray: &SightRay<Rest>) -> Line {
         Line {
-            origin: self.mesh_from_rest.transform_point3(ray.event.x),
-            step: self.mesh_from_rest.transform_vector3(-ray.k.x),
+            origin: self.form_from_rest.transform_point3(ray.event.x),
+            step: self.form_from_rest.transform_vector3(-ray.k.x),
         }
     }
 
     /// The first meeting at 0 < s < `s_max`.
     #[inline]
-    pub(super) fn nearest(&self, ray: &SightRay<Rest>, s_max: f64) -> Option<Meeting> {
-        self.triangles.nearest(&self.line(ray), s_max)
+    pub(super) fn nearest(&self, ray: &SightRay<Rest>, s_max: f64) -> Option<Met> {
+        let line = self.line(ray);
+        match &self.form {
+            Form::Mesh(triangles) => triangles.nearest(&line, s_max).map(Met::Triangle),
+            Form::Solid(solid) => {
+                let crossing = solid.nearest(&line, 0.0, s_max)?;
+                Some(Met::Solid(crossing, line.origin + line.step * crossing.s))
+            }
+        }
     }
 
     /// Whether there is any meeting at 0 < s < `s_max`.
     #[inline]
     pub(super) fn any(&self, ray: &SightRay<Rest>, s_max: f64) -> bool {
-        self.triangles.any(&self.line(ray), s_max)
+        match &self.form {
+            Form::Mesh(triangles) => triangles.any(&self.line(ray), s_max),
+            Form::Solid(solid) => solid.nearest(&self.line(ray), 0.0, s_max).is_some(),
+        }
     }
 
     /// All meetings at 0 < s < `s_max`, in no order, until one is enough: whether it was.
@@ -79,52 +121,105 @@ impl Placed {
         &self,
         ray: &SightRay<Rest>,
         s_max: f64,
-        enough: &mut dyn FnMut(Meeting) -> bool,
+        enough: &mut dyn FnMut(Met) -> bool,
     ) -> bool {
-        self.triangles.until(&self.line(ray), s_max, enough)
+        let line = self.line(ray);
+        match &self.form {
+            Form::Mesh(triangles) => {
+                triangles.until(&line, s_max, &mut |meeting| enough(Met::Triangle(meeting)))
+            }
+            Form::Solid(solid) => {
+                let mut stopped = false;
+                solid.crossings(&line, 0.0, s_max, &mut |crossing| {
+                    stopped = enough(Met::Solid(crossing, line.origin + line.step * crossing.s));
+                    !stopped
+                });
+                stopped
+            }
+        }
     }
 
     /// The geometry at a meeting.
-    pub(super) fn local(&self, meeting: &Meeting) -> Local {
-        let mesh = &self.triangles.mesh;
-        let corners = self.triangles.corners(meeting.triangle);
-        let x = self.rest_from_mesh.transform_point3(mix(corners, meeting.weights));
+    pub(super) fn local(&self, met: &Met) -> Local {
+        match (met, &self.form) {
+            (Met::Triangle(meeting), Form::Mesh(triangles)) => self.local_of_mesh(triangles, meeting),
+            (Met::Solid(crossing, point), Form::Solid(solid)) => {
+                let facet = solid.surface_at(crossing, *point);
+                let x = self.rest_from_form.transform_point3(facet.place);
+                let normal = self.rest_from_form_normals * facet.normal;
+                let size = x.abs().max_element().max(self.reach);
+                Local { x, facet_normal: normal, normal, size }
+            }
+            _ => Local { x: DVec3::ZERO, facet_normal: DVec3::Z, normal: DVec3::Z, size: 0.0 },
+        }
+    }
+
+    fn local_of_mesh(&self, triangles: &Triangles, meeting: &Meeting) -> Local {
+        let mesh = &triangles.mesh;
+        let corners = triangles.corners(meeting.triangle);
+        let x = self.rest_from_form.transform_point3(mix(corners, meeting.weights));
         let facet = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         let corner_normals = mesh.triangles[meeting.triangle as usize]
             .map(|i| mesh.normals.get(i as usize).map_or(DVec3::ZERO, |n| n.as_dvec3()));
         // The corners' coordinates may cancel, within the mesh and with its place: what is left is no measure of rounding.
-        let size = |corner: DVec3| self.rest_from_mesh.transform_vector3(corner).abs().max_element();
+        let size = |corner: DVec3| self.rest_from_form.transform_vector3(corner).abs().max_element();
         let size = corners.map(size).into_iter().fold(0.0, f64::max)
-            + self.rest_from_mesh.translation.abs().max_element();
+            + self.rest_from_form.translation.abs().max_element();
         Local {
             x,
-            facet_normal: self.rest_from_mesh_normals * facet,
-            normal: self.rest_from_mesh_normals * mix(corner_normals, meeting.weights),
+            facet_normal: self.rest_from_form_normals * facet,
+            normal: self.rest_from_form_normals * mix(corner_normals, meeting.weights),
             size,
         }
     }
 
-    /// The triangle's edges from its first corner, in the rest frame, and what they are in texture coordinates.
-    pub(super) fn edges(&self, meeting: &Meeting, set: u8) -> Option<([DVec3; 2], [glam::DVec2; 2])> {
-        let mesh = &self.triangles.mesh;
-        let uvs = mesh.uvs.get(set as usize).filter(|uvs| !uvs.is_empty())?;
-        let corners = self.triangles.corners(meeting.triangle);
-        let edge = |i: usize| self.rest_from_mesh.transform_vector3(corners[i] - corners[0]);
-        let [a, b, c] = mesh.triangles[meeting.triangle as usize].map(|i| uvs[i as usize].as_dvec2());
-        Some(([edge(1), edge(2)], [b - a, c - a]))
+    /// Two steps along the surface, in the rest frame, and what they are in texture coordinates.
+    pub(super) fn edges(&self, met: &Met, set: u8) -> Option<([DVec3; 2], [DVec2; 2])> {
+        match (met, &self.form) {
+            (Met::Triangle(meeting), Form::Mesh(triangles)) => {
+                let mesh = &triangles.mesh;
+                let uvs = mesh.uvs.get(set as usize).filter(|uvs| !uvs.is_empty())?;
+                let corners = triangles.corners(meeting.triangle);
+                let edge = |i: usize| self.rest_from_form.transform_vector3(corners[i] - corners[0]);
+                let [a, b, c] = mesh.triangles[meeting.triangle as usize].map(|i| uvs[i as usize].as_dvec2());
+                Some(([edge(1), edge(2)], [b - a, c - a]))
+            }
+            (Met::Solid(crossing, point), Form::Solid(solid)) => {
+                let facet = solid.surface_at(crossing, *point);
+                let steps = [facet.tangent_u, facet.tangent_v];
+                Some((steps.map(|t| self.rest_from_form.transform_vector3(t)), [DVec2::X, DVec2::Y]))
+            }
+            _ => None,
+        }
+    }
+
+    /// Texture coordinates of one set; the upper left corner where there are none.
+    pub(super) fn uv(&self, met: &Met, set: u8) -> DVec2 {
+        match (met, &self.form) {
+            (Met::Triangle(meeting), Form::Mesh(triangles)) => {
+                let mesh = &triangles.mesh;
+                let uvs: &[Vec2] = mesh.uvs.get(set as usize).map_or(&[], |uvs| uvs);
+                let [a, b, c] = mesh.triangles[meeting.triangle as usize]
+                    .map(|i| uvs.get(i as usize).map_or(DVec2::ZERO, |uv| uv.as_dvec2()));
+                let (v, w) = meeting.weights;
+                a + (b - a) * v + (c - a) * w
+            }
+            (Met::Solid(crossing, point), Form::Solid(solid)) => solid.surface_at(crossing, *point).uv,
+            _ => DVec2::ZERO,
+        }
     }
 
     /// The file's own tangent (rest frame, of any length) and its hand, if it has them.
-    pub(super) fn tangent(&self, meeting: &Meeting) -> Option<(DVec3, f64)> {
-        let mesh = &self.triangles.mesh;
-        let triangle = mesh.triangles[meeting.triangle as usize];
-        let tangents = triangle.map(|i| mesh.tangents.get(i as usize));
+    pub(super) fn tangent(&self, met: &Met) -> Option<(DVec3, f64)> {
+        let (Met::Triangle(meeting), Form::Mesh(triangles)) = (met, &self.form) else { return None };
+        let mesh = &triangles.mesh;
+        let tangents = mesh.triangles[meeting.triangle as usize].map(|i| mesh.tangents.get(i as usize));
         let [Some(a), Some(b), Some(c)] = tangents else { return None };
         let along = |t: &[f32; 4]| DVec3::new(f64::from(t[0]), f64::from(t[1]), f64::from(t[2]));
         let tangent = mix([along(a), along(b), along(c)], meeting.weights);
         // Where the map mirrors, so does the hand.
-        let hand = f64::from(a[3]) * self.rest_from_mesh.matrix3.determinant().signum();
-        Some((self.rest_from_mesh.transform_vector3(tangent), hand))
+        let hand = f64::from(a[3]) * self.rest_from_form.matrix3.determinant().signum();
+        Some((self.rest_from_form.transform_vector3(tangent), hand))
     }
 }
 

@@ -11,6 +11,7 @@ use terrell::spectrum::Index;
 use terrell::surface::{Absorption, Glass, Medium, Scatter, Surface};
 use terrell::trace::Effects;
 use terrell::triangles::Triangles;
+use terrell::world::Form;
 
 /// A body as it is put on a stage: made at rest at the origin, then moved there.
 #[derive(Clone)]
@@ -146,7 +147,7 @@ impl Stage {
         let mut world = WorldBuilder::default();
         for (number, body) in self.bodies.iter().enumerate() {
             let number = number as u32;
-            world.add(number, body.placement, &body.mesh, body.rest_from_mesh, number);
+            world.add(number, body.placement, &Form::Mesh(body.mesh.clone()), body.rest_from_mesh, number);
         }
         Scene {
             world: world.build(),
