@@ -6,15 +6,15 @@ use terrell::import::{Material, Volume};
 use terrell::texture::Texture;
 
 /// A model whose material has extensions, of which each texture `{ "index": 0 }` is one texel.
-fn model(extensions: Value) -> Model {
+fn model(extensions: &Value) -> Model {
     let mut model = Model::triangle();
     model.texture(&png(1, &[[188, 51, 0, 102]]));
     let names: Vec<_> = extensions.as_object().unwrap().keys().cloned().collect();
     model.json["extensionsUsed"] = json!(names);
-    model.with_material(json!({ "name": "M", "pbrMetallicRoughness": {}, "extensions": extensions }))
+    model.with_material(&json!({ "name": "M", "pbrMetallicRoughness": {}, "extensions": extensions }))
 }
 
-fn material(extensions: Value) -> Material {
+fn material(extensions: &Value) -> Material {
     let asset = model(extensions).asset();
     assert!(asset.warnings.is_empty(), "{:?}", asset.warnings);
     asset.materials[0].clone()
@@ -28,7 +28,7 @@ const LINEAR: [f32; 4] = [188.0 / 255.0, 51.0 / 255.0, 0.0, 102.0 / 255.0];
 
 #[test]
 fn refractive_index_is_one_and_a_half_unless_written() {
-    let ior = |written: Value| material(json!({ "KHR_materials_ior": written })).ior;
+    let ior = |written: Value| material(&json!({ "KHR_materials_ior": written })).ior;
     assert_eq!(ior(json!({})), 1.5);
     assert_eq!(ior(json!({ "ior": 2.42 })), 2.42);
     assert_eq!(ior(json!({ "ior": 1 })), 1.0);
@@ -37,23 +37,23 @@ fn refractive_index_is_one_and_a_half_unless_written() {
 
 #[test]
 fn dispersion_is_none_unless_written() {
-    assert_eq!(material(json!({ "KHR_materials_dispersion": {} })).dispersion, 0.0);
-    assert_eq!(material(json!({ "KHR_materials_dispersion": { "dispersion": 0.36 } })).dispersion, 0.36);
+    assert_eq!(material(&json!({ "KHR_materials_dispersion": {} })).dispersion, 0.0);
+    assert_eq!(material(&json!({ "KHR_materials_dispersion": { "dispersion": 0.36 } })).dispersion, 0.36);
 }
 
 #[test]
 fn transmission_has_an_amount_and_a_linear_texture() {
     let written = json!({ "transmissionFactor": 0.75, "transmissionTexture": { "index": 0, "texCoord": 1 } });
-    let transmission = material(json!({ "KHR_materials_transmission": written })).transmission.unwrap();
+    let transmission = material(&json!({ "KHR_materials_transmission": written })).transmission.unwrap();
     assert_eq!(transmission.amount, 0.75);
     assert_eq!(value(transmission.texture.as_ref()), LINEAR);
     assert_eq!(transmission.texture.unwrap().uv_set, 1);
-    assert!(material(json!({ "KHR_materials_transmission": {} })).transmission.is_none());
+    assert!(material(&json!({ "KHR_materials_transmission": {} })).transmission.is_none());
 }
 
 #[test]
 fn volume_is_one_where_its_thickness_is_not_zero() {
-    let volume = |written: Value| material(json!({ "KHR_materials_volume": written })).volume;
+    let volume = |written: Value| material(&json!({ "KHR_materials_volume": written })).volume;
     let written = json!({ "thicknessFactor": 2, "thicknessTexture": { "index": 0 }, "attenuationDistance": 0.5,
         "attenuationColor": [1, 0.5, 0] });
     let expected = Volume { thickness: 2.0, attenuation_distance: 0.5, attenuation_color: [1.0, 0.5, 0.0] };
@@ -68,11 +68,11 @@ fn volume_is_one_where_its_thickness_is_not_zero() {
 fn specular_has_strength_and_colour_with_textures_linear_and_not() {
     let written = json!({ "specularFactor": 0.25, "specularTexture": { "index": 0 },
         "specularColorFactor": [2, 1, 0.5], "specularColorTexture": { "index": 0 } });
-    let specular = material(json!({ "KHR_materials_specular": written })).specular;
+    let specular = material(&json!({ "KHR_materials_specular": written })).specular;
     assert_eq!((specular.strength, specular.color), (0.25, [2.0, 1.0, 0.5]));
     assert_eq!(value(specular.texture.as_ref()), LINEAR, "strength is in A, which is kept");
     assert!((value(specular.color_texture.as_ref())[0] - 0.503).abs() < 1e-3, "a colour is sRGB");
-    let empty = material(json!({ "KHR_materials_specular": {} })).specular;
+    let empty = material(&json!({ "KHR_materials_specular": {} })).specular;
     assert_eq!((empty.strength, empty.color), (1.0, [1.0; 3]));
 }
 
@@ -84,7 +84,7 @@ fn clearcoat_has_strength_roughness_and_bumps_of_its_own() {
         "clearcoatRoughnessFactor": 0.125, "clearcoatRoughnessTexture": { "index": 0, "texCoord": 1 },
         "clearcoatNormalTexture": { "index": 0, "scale": 0.75, "extensions": transform },
     });
-    let material_with = |written: &Value| material(json!({ "KHR_materials_clearcoat": written }));
+    let material_with = |written: &Value| material(&json!({ "KHR_materials_clearcoat": written }));
     let with = material_with(&written);
     assert!(with.has_normal_map() && with.normal.is_none());
     let coat = with.clearcoat.unwrap();
@@ -106,14 +106,14 @@ fn extensions_of_materials_that_are_read_may_be_required() {
     let names = names.map(|name| format!("KHR_materials_{name}"));
     let extensions: Value =
         names.iter().map(|name| (name.clone(), json!({}))).collect::<serde_json::Map<_, _>>().into();
-    let mut model = model(extensions);
+    let mut model = model(&extensions);
     model.json["extensionsRequired"] = json!(names);
     assert!(model.asset().warnings.is_empty());
 }
 
 #[test]
 fn occlusion_is_left_out_without_a_word() {
-    let mut model = model(json!({}));
+    let mut model = model(&json!({}));
     model.json["materials"][0]["occlusionTexture"] = json!({ "index": 0 });
     let asset = model.asset();
     assert!(asset.warnings.is_empty(), "{:?}", asset.warnings);
@@ -123,7 +123,7 @@ fn occlusion_is_left_out_without_a_word() {
 #[test]
 fn extensions_passed_over_are_warned_of_once_with_their_materials() {
     let mut model =
-        model(json!({ "KHR_materials_sheen": { "sheenRoughnessFactor": 1 }, "KHR_materials_ior": {} }));
+        model(&json!({ "KHR_materials_sheen": { "sheenRoughnessFactor": 1 }, "KHR_materials_ior": {} }));
     for i in 0..7 {
         let material = json!({ "name": format!("M{i}"), "pbrMetallicRoughness": {},
             "extensions": { "KHR_materials_sheen": {} } });

@@ -190,7 +190,7 @@ fn triangles_without_a_material_are_white_and_purely_diffuse() {
 
 #[test]
 fn empty_material_has_the_specifications_defaults() {
-    let material = material(&Model::triangle().with_material(json!({ "pbrMetallicRoughness": {} })));
+    let material = material(&Model::triangle().with_material(&json!({ "pbrMetallicRoughness": {} })));
     assert_eq!(material.base_color, [1.0; 4]);
     assert_eq!((material.metal.metallic, material.metal.roughness), (1.0, 1.0));
     assert_eq!(material.coverage, Coverage::Opaque);
@@ -206,7 +206,7 @@ fn empty_material_has_the_specifications_defaults() {
 fn metalness_and_roughness_are_factors_with_a_linear_texture() {
     let mut model = Model::triangle();
     let texture = model.texture(&png(1, &[[0, 188, 51, 7]]));
-    let material = material(&model.with_material(json!({ "doubleSided": true, "pbrMetallicRoughness": {
+    let material = material(&model.with_material(&json!({ "doubleSided": true, "pbrMetallicRoughness": {
         "metallicFactor": 0.25, "roughnessFactor": 0.5, "metallicRoughnessTexture": { "index": texture, "texCoord": 1 },
     } })));
     assert!(material.double_sided);
@@ -224,7 +224,7 @@ fn normal_map_is_linear_with_a_scale_of_any_sign_and_a_transform() {
     let transform = json!({ "KHR_texture_transform": { "offset": [0.25, 0], "texCoord": 1 } });
     let written = json!({ "index": texture, "scale": -2, "extensions": transform });
     let plain = json!({ "index": texture });
-    let mut model = model.with_material(json!({ "normalTexture": written, "pbrMetallicRoughness": {} }));
+    let mut model = model.with_material(&json!({ "normalTexture": written, "pbrMetallicRoughness": {} }));
     push(&mut model.json["materials"], json!({ "normalTexture": plain, "pbrMetallicRoughness": {} }));
     let materials = model.asset().materials;
     assert!(materials[0].has_normal_map());
@@ -239,7 +239,7 @@ fn normal_map_is_linear_with_a_scale_of_any_sign_and_a_transform() {
 fn coverage_is_opaque_masked_or_blended() {
     let coverage = |mut written: Value| {
         written["pbrMetallicRoughness"] = json!({ "baseColorFactor": [1, 1, 1, 0.5] });
-        let material = material(&Model::triangle().with_material(written));
+        let material = material(&Model::triangle().with_material(&written));
         (material.coverage, material.base_color[3])
     };
     assert_eq!(coverage(json!({ "alphaMode": "OPAQUE", "alphaCutoff": 0.1 })), (Coverage::Opaque, 1.0));
@@ -258,7 +258,7 @@ fn one_image_serves_as_colour_and_as_numbers() {
             "a" => json!({ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorTexture": texture } }),
             _ => json!({ "pbrMetallicRoughness": { "metallicRoughnessTexture": texture } }),
         };
-        let mut model = model.with_material(of(order[0]));
+        let mut model = model.with_material(&of(order[0]));
         push(&mut model.json["materials"], of(order[1]));
         let opaque = json!({ "pbrMetallicRoughness": { "baseColorTexture": texture }, "emissiveTexture": texture,
             "normalTexture": texture });
@@ -288,7 +288,7 @@ fn floating_point_picture_is_the_same_for_every_use() {
     let mut model = Model::triangle();
     let texture = json!({ "index": model.texture(&bytes.into_inner()) });
     let pbr = json!({ "metallicRoughnessTexture": texture, "baseColorTexture": texture });
-    let material = material(&model.with_material(json!({ "pbrMetallicRoughness": pbr })));
+    let material = material(&model.with_material(&json!({ "pbrMetallicRoughness": pbr })));
     let (base, data) = (material.base_texture.unwrap(), material.metal.texture.unwrap());
     assert!(std::sync::Arc::ptr_eq(&base.picture, &data.picture));
     assert_eq!(value(&data), [0.25, 0.5, 0.75, 1.0]);
@@ -301,5 +301,5 @@ fn picture_at_fault_is_reported_once_however_often_it_is_used() {
     let pbr = json!({ "metallicRoughnessTexture": texture, "baseColorTexture": texture });
     let material =
         json!({ "pbrMetallicRoughness": pbr, "normalTexture": texture, "emissiveTexture": texture });
-    assert_eq!(faults(model.with_material(material).load()).len(), 1);
+    assert_eq!(faults(model.with_material(&material).load()).len(), 1);
 }

@@ -285,7 +285,7 @@ fn tangled(tangents: &[f32]) -> Model {
     let tangents = model.floats("VEC4", tangents);
     model.attribute("TANGENT", tangents);
     let texture = model.texture(&png(1, &[[128, 128, 255, 255]]));
-    model.with_material(json!({ "pbrMetallicRoughness": {}, "normalTexture": { "index": texture } }))
+    model.with_material(&json!({ "pbrMetallicRoughness": {}, "normalTexture": { "index": texture } }))
 }
 
 const TANGENTS: [f32; 12] = [3.0, 4.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0];

@@ -110,7 +110,7 @@ impl Model {
     }
 
     /// Gives the first primitive one material, and both sets of texture coordinates.
-    pub(crate) fn with_material(mut self, material: Value) -> Self {
+    pub(crate) fn with_material(mut self, material: &Value) -> Self {
         for set in ["TEXCOORD_0", "TEXCOORD_1"] {
             let uvs = self.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
             self.attribute(set, uvs);
