@@ -132,6 +132,52 @@ fn inspect_names_what_can_be_copied_into_a_manifest() {
 }
 
 #[test]
+fn inspect_says_what_each_material_is_and_what_is_passed_over() {
+    let materials = serde_json::json!([
+        { "name": "Glass", "alphaMode": "MASK", "doubleSided": true,
+          "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0.25 },
+          "extensions": {
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 0.5, "attenuationColor": [1, 0, 0] },
+            "KHR_materials_ior": { "ior": 1.75 }, "KHR_materials_dispersion": { "dispersion": 0.5 },
+            "KHR_materials_clearcoat": { "clearcoatFactor": 0.5 }, "KHR_materials_sheen": {},
+        } },
+        { "name": "Clay", "pbrMetallicRoughness": { "metallicFactor": 0 },
+          "extensions": { "KHR_materials_specular": { "specularFactor": 0 } } },
+    ]);
+    let model = serde_json::json!({ "asset": { "version": "2.0" }, "materials": materials });
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.gltf");
+    std::fs::write(&path, model.to_string()).unwrap();
+    let output = terrell(&["inspect", path.to_str().unwrap()]);
+    let tree = said(&output);
+    let words = [
+        "cut out where alpha is below 0.500",
+        "metallic 0.000",
+        "roughness 0.250",
+        "refractive index 1.750",
+        "solid glass, transmission 1.000",
+        "absorbs to 1.000 0.000 0.000 in 0.5000 m",
+        "dispersion 0.500",
+        "clearcoat 0.500 of roughness 0.000",
+        "two-sided; passed over: KHR_materials_sheen",
+        "Clay: colour 1.000 1.000 1.000 (linear), diffuse\n",
+    ];
+    for words in words {
+        assert!(tree.contains(words), "{words}: {tree}");
+    }
+    let json = terrell(&["inspect", "--json", path.to_str().unwrap()]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    let [glass, clay] = [&json["materials"][0], &json["materials"][1]];
+    assert_eq!((&glass["coverage"], &glass["cutoff"]), (&"mask".into(), &0.5.into()));
+    assert_eq!((&glass["ior"], &glass["transmission"]), (&1.75.into(), &1.0.into()));
+    assert_eq!(glass["volume"]["attenuation_distance"], 0.5);
+    assert_eq!(glass["clearcoat"]["strength"], 0.5);
+    assert_eq!(glass["ignored"][0], "KHR_materials_sheen");
+    assert_eq!((&clay["clearcoat"], &clay["specular"]["strength"]), (&serde_json::Value::Null, &0.0.into()));
+}
+
+#[test]
 fn every_committed_manifest_is_without_fault() {
     let found = |folder: &str| {
         let entries = std::fs::read_dir(top(folder)).unwrap();

@@ -1,9 +1,9 @@
 //! `terrell inspect`: what is in a model file, to copy names from.
 
 use crate::error::{Error, Place};
-use crate::import::{self, Asset, LightKind, Material};
+use crate::import::{self, Asset, Coverage, LightKind, Material, NormalMap};
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -56,8 +56,12 @@ fn as_text(asset: &Asset) -> String {
         );
     }
     text += "\nmaterials\n";
-    for material in &asset.materials {
-        text += &format!("  {}: {}\n", name(&material.name), describe(material));
+    for (number, material) in asset.materials.iter().enumerate() {
+        text += &format!("  {}: {}", name(&material.name), describe(material));
+        if let Some(ignored) = asset.ignored.get(&number) {
+            text += &format!("; passed over: {}", ignored.join(", "));
+        }
+        text += "\n";
     }
     for animation in &asset.animations {
         text += &format!("\nanimation {} (not played)\n", name(animation));
@@ -94,23 +98,75 @@ fn contents(asset: &Asset) -> Vec<Vec<String>> {
     contents
 }
 
+/// What a material is, in words, without what it is not.
 fn describe(material: &Material) -> String {
     let [r, g, b, a] = material.base_color;
     let mut words = vec![format!("colour {r:.3} {g:.3} {b:.3} (linear)")];
     if a < 1.0 {
         words.push(format!("alpha {a:.3}"));
     }
-    if let Some(texture) = &material.base_texture {
-        words.push(format!("texture {} x {}", texture.picture.width, texture.picture.height));
+    match material.coverage {
+        Coverage::Opaque => {}
+        Coverage::Mask { cutoff } => words.push(format!("cut out where alpha is below {cutoff:.3}")),
+        Coverage::Blend => words.push("alpha is coverage".to_owned()),
+    }
+    if material.unlit {
+        words.push("unlit".to_owned());
+    } else {
+        words.extend(reflection(material));
+        words.extend(glass(material));
     }
     if material.emissive.iter().any(|channel| *channel > 0.0) {
         let [r, g, b] = material.emissive;
         words.push(format!("emits {r:.3} {g:.3} {b:.3} cd/m2"));
     }
-    if material.unlit {
-        words.push("unlit".to_owned());
+    if material.double_sided {
+        words.push("two-sided".to_owned());
+    }
+    for (purpose, texture) in material.textures() {
+        let picture = &texture.picture;
+        words.push(format!("texture of {purpose} {} x {}", picture.width, picture.height));
     }
     words.join(", ")
+}
+
+fn reflection(material: &Material) -> Vec<String> {
+    let (metal, specular) = (&material.metal, &material.specular);
+    if metal.metallic == 0.0 && specular.strength == 0.0 && material.clearcoat.is_none() {
+        return vec!["diffuse".to_owned()];
+    }
+    let mut words =
+        vec![format!("metallic {:.3}", metal.metallic), format!("roughness {:.3}", metal.roughness)];
+    if metal.metallic < 1.0 && specular.strength < 1.0 {
+        words.push(format!("specular {:.3}", specular.strength));
+    }
+    if specular.color != [1.0; 3] {
+        let [r, g, b] = specular.color;
+        words.push(format!("specular colour {r:.3} {g:.3} {b:.3}"));
+    }
+    if let Some(coat) = &material.clearcoat {
+        words.push(format!("clearcoat {:.3} of roughness {:.3}", coat.strength, coat.roughness));
+    }
+    words
+}
+
+fn glass(material: &Material) -> Vec<String> {
+    let mut words = Vec::new();
+    if material.ior != 1.5 || material.transmission.is_some() {
+        words.push(format!("refractive index {:.3}", material.ior));
+    }
+    if let Some(transmission) = &material.transmission {
+        let body = if material.volume.is_some() { "solid" } else { "thin-walled" };
+        words.push(format!("{body} glass, transmission {:.3}", transmission.amount));
+    }
+    if let Some(volume) = material.volume.filter(|volume| volume.attenuation_distance.is_finite()) {
+        let [r, g, b] = volume.attenuation_color;
+        words.push(format!("absorbs to {r:.3} {g:.3} {b:.3} in {:.4} m", volume.attenuation_distance));
+    }
+    if material.dispersion > 0.0 {
+        words.push(format!("dispersion {:.3}", material.dispersion));
+    }
+    words
 }
 
 fn extent(asset: &Asset) -> Option<(glam::DVec3, glam::DVec3)> {
@@ -128,21 +184,49 @@ fn as_json(asset: &Asset) -> Value {
         .zip(contents(asset))
         .map(|(node, holds)| json!({ "name": node.name, "parent": node.parent, "holds": holds }))
         .collect();
-    let materials: Vec<Value> = asset
-        .materials
-        .iter()
-        .map(|m| {
-            json!({ "name": m.name, "base_color": m.base_color, "emissive": m.emissive, "unlit": m.unlit,
-            "textured": m.base_texture.is_some() })
-        })
-        .collect();
+    let materials: Vec<Value> =
+        (0..asset.materials.len()).map(|number| material_json(asset, number)).collect();
     let meshes: Vec<Value> = asset
         .meshes
         .iter()
-        .map(|mesh| json!({ "name": mesh.name, "triangles": mesh.triangles.len(), "vertices": mesh.positions.len() }))
+        .map(|mesh| {
+            json!({ "name": mesh.name, "triangles": mesh.triangles.len(), "vertices": mesh.positions.len(),
+                "tangents": !mesh.tangents.is_empty() })
+        })
         .collect();
     let size = extent(asset).map(|(lo, hi)| [lo.to_array(), hi.to_array()]);
     json!({ "file": asset.path, "extent": size, "nodes": nodes, "meshes": meshes, "materials": materials,
         "lights": asset.lights.len(), "cameras": asset.cameras.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "animations": asset.animations })
+}
+
+fn material_json(asset: &Asset, number: usize) -> Value {
+    let m = &asset.materials[number];
+    let (coverage, cutoff) = match m.coverage {
+        Coverage::Opaque => ("opaque", None),
+        Coverage::Mask { cutoff } => ("mask", Some(cutoff)),
+        Coverage::Blend => ("blend", None),
+    };
+    let textures: Map<String, Value> = m
+        .textures()
+        .map(|(purpose, t)| (purpose.to_owned(), json!([t.picture.width, t.picture.height])))
+        .collect();
+    let normal = |map: &Option<NormalMap>| map.as_ref().map(|map| json!({ "scale": map.scale }));
+    json!({
+        "name": m.name, "base_color": m.base_color, "emissive": m.emissive, "unlit": m.unlit,
+        "textured": m.base_texture.is_some(), "textures": textures,
+        "coverage": coverage, "cutoff": cutoff, "double_sided": m.double_sided,
+        "metallic": m.metal.metallic, "roughness": m.metal.roughness, "normal": normal(&m.normal),
+        "ior": m.ior, "dispersion": m.dispersion,
+        "specular": { "strength": m.specular.strength, "color": m.specular.color },
+        "clearcoat": m.clearcoat.as_ref().map(|coat| json!({
+            "strength": coat.strength, "roughness": coat.roughness, "normal": normal(&coat.normal),
+        })),
+        "transmission": m.transmission.as_ref().map(|transmission| transmission.amount),
+        // JSON has no infinity: null is a distance without end.
+        "volume": m.volume.map(|volume| json!({
+            "attenuation_distance": volume.attenuation_distance, "attenuation_color": volume.attenuation_color,
+        })),
+        "ignored": asset.ignored.get(&number).cloned().unwrap_or_default(),
+    })
 }

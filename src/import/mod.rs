@@ -28,9 +28,7 @@ use crate::error::{Error, Fault, Place, Report};
 use crate::mesh::Mesh;
 use files::Files;
 use glam::DAffine3;
-pub use material::{
-    Clearcoat, Coverage, Material, MetalRough, NormalMap, Specular, Transmission, Volume,
-};
+pub use material::{Clearcoat, Coverage, Material, MetalRough, NormalMap, Specular, Transmission, Volume};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

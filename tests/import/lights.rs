@@ -62,7 +62,7 @@ fn cameras_have_a_place_and_a_field_of_view() {
 fn extensions_that_are_required_and_unknown_are_refused_by_name_all_at_once() {
     let mut model = Model::triangle();
     let required =
-        ["KHR_draco_mesh_compression", "KHR_texture_transform", "KHR_materials_volume", "KHR_texture_basisu"];
+        ["KHR_draco_mesh_compression", "KHR_texture_transform", "KHR_materials_sheen", "KHR_texture_basisu"];
     model.json["extensionsRequired"] = json!(required);
     model.json["extensionsUsed"] = json!(required);
     let faults = faults(model.load());
@@ -76,8 +76,8 @@ fn extensions_that_are_required_and_unknown_are_refused_by_name_all_at_once() {
 #[test]
 fn extensions_that_are_only_used_are_warned_of() {
     let mut model = Model::triangle();
-    model.json["extensionsUsed"] = json!(["KHR_materials_specular", "KHR_materials_unlit"]);
+    model.json["extensionsUsed"] = json!(["KHR_materials_sheen", "KHR_materials_unlit"]);
     let asset = model.asset();
     assert_eq!(asset.warnings.len(), 1);
-    assert!(warns(&asset, "KHR_materials_specular"));
+    assert!(warns(&asset, "KHR_materials_sheen"));
 }

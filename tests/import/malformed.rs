@@ -3,9 +3,9 @@
 use super::*;
 
 /// A change for the worse, and what the message must say.
-type Case = (fn(&mut Model), &'static str);
+pub(crate) type Case = (fn(&mut Model), &'static str);
 
-fn textured(model: &mut Model) {
+pub(crate) fn textured(model: &mut Model) {
     model.textured(&png(1, &[[1, 2, 3, 255]]));
 }
 
@@ -201,7 +201,7 @@ fn huge(model: &mut Model) {
     model.json["images"][0]["bufferView"] = json!(view);
 }
 
-fn check(prepare: fn(&mut Model), cases: &[Case]) {
+pub(crate) fn check(prepare: fn(&mut Model), cases: &[Case]) {
     for (i, (spoil, element)) in cases.iter().enumerate() {
         let mut model = Model::triangle();
         prepare(&mut model);

@@ -276,3 +276,79 @@ fn skinned_and_morphed_meshes_rest_with_a_warning() {
     assert!(warns(&asset, "meshes[0].primitives[0]: its morph targets"));
     assert!(warns(&asset, "nodes[0].skin"));
 }
+
+/// A triangle with normals and tangents, whose material has a normal map.
+fn tangled(tangents: &[f32]) -> Model {
+    let mut model = Model::triangle();
+    let normals = model.floats("VEC3", &[0.0, 0.0, 1.0].repeat(3));
+    model.attribute("NORMAL", normals);
+    let tangents = model.floats("VEC4", tangents);
+    model.attribute("TANGENT", tangents);
+    let texture = model.texture(&png(1, &[[128, 128, 255, 255]]));
+    model.with_material(&json!({ "pbrMetallicRoughness": {}, "normalTexture": { "index": texture } }))
+}
+
+const TANGENTS: [f32; 12] = [3.0, 4.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0];
+
+#[test]
+fn tangents_come_at_unit_length_with_their_handedness() {
+    let asset = tangled(&TANGENTS).asset();
+    assert!(asset.warnings.is_empty(), "{:?}", asset.warnings);
+    let expected = [[0.6, 0.8, 0.0, 1.0], [1.0, 0.0, 0.0, -1.0], [0.0, -1.0, 0.0, 1.0]];
+    assert_eq!(asset.meshes[0].tangents, expected);
+    assert!(Model::triangle().asset().meshes[0].tangents.is_empty());
+}
+
+#[test]
+fn tangents_that_are_none_are_all_passed_over_with_a_warning() {
+    for (place, value) in [(4, 0.0), (5, f32::NAN), (4, f32::INFINITY), (7, 0.0), (7, 0.5), (7, f32::NAN)] {
+        let mut tangents = TANGENTS;
+        tangents[place] = value;
+        let asset = tangled(&tangents).asset();
+        assert!(asset.meshes[0].tangents.is_empty());
+        assert!(warns(&asset, "primitives[0].attributes.TANGENT: vertex 1 is ["), "{:?}", asset.warnings);
+    }
+}
+
+#[test]
+fn tangents_of_a_wrong_type_or_number_are_faults() {
+    let mut model = tangled(&TANGENTS);
+    let three = model.floats("VEC3", &TANGENTS[..9]);
+    model.attribute("TANGENT", three);
+    let said = faults(model.load())[0].to_string();
+    assert!(said.contains("primitives[0].attributes.TANGENT: Vec3 of F32"), "{said}");
+    let said = faults(tangled(&TANGENTS[..8]).load())[0].to_string();
+    assert!(said.contains("attributes.TANGENT: has 2 elements, but POSITION has 3"), "{said}");
+}
+
+#[test]
+fn tangents_without_normals_do_not_count() {
+    let mut model = tangled(&TANGENTS);
+    model.json["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap().remove("NORMAL");
+    assert!(model.asset().meshes[0].tangents.is_empty());
+}
+
+#[test]
+fn mesh_keeps_its_tangents_unless_a_part_with_a_normal_map_has_none() {
+    let mut model = tangled(&TANGENTS);
+    let mut without = model.json["meshes"][0]["primitives"][0].clone();
+    without["attributes"].as_object_mut().unwrap().remove("TANGENT");
+    push(&mut model.json["meshes"][0]["primitives"], without);
+    assert!(model.asset().meshes[0].tangents.is_empty());
+    let plain = push(&mut model.json["materials"], json!({ "pbrMetallicRoughness": {} }));
+    model.json["meshes"][0]["primitives"][1]["material"] = json!(plain);
+    let mesh = model.asset().meshes[0].clone();
+    assert_eq!((mesh.positions.len(), mesh.tangents.len()), (6, 6));
+    assert_eq!(mesh.tangents[1], [1.0, 0.0, 0.0, -1.0]);
+}
+
+#[test]
+fn missing_texture_coordinates_are_warned_of_for_any_texture_once() {
+    let mut model = tangled(&TANGENTS);
+    let textures = json!({ "clearcoatFactor": 1, "clearcoatTexture": { "index": 0 } });
+    model.json["materials"][0]["extensions"] = json!({ "KHR_materials_clearcoat": textures });
+    model.json["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap().remove("TEXCOORD_0");
+    let asset = model.asset();
+    assert!(warns(&asset, "primitives[0]: its material `` has a texture, but there is no TEXCOORD_0"));
+    assert_eq!(asset.warnings.len(), 1, "{:?}", asset.warnings);
+}

@@ -2,8 +2,10 @@
 #![allow(clippy::float_cmp, reason = "numbers go in and must come out as they are")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "these are the tests' own helpers")]
 
+mod extensions;
 mod lights;
 mod malformed;
+mod malformed_materials;
 mod materials;
 mod meshes;
 mod mutation;
@@ -93,13 +95,29 @@ impl Model {
 
     /// Adds a material with a picture for its base colour and gives it to the first primitive.
     pub(crate) fn textured(&mut self, picture: &[u8]) -> usize {
-        let view = self.view(picture);
-        let image = push(&mut self.json["images"], json!({ "bufferView": view, "mimeType": "image/png" }));
-        let texture = push(&mut self.json["textures"], json!({ "source": image }));
+        let texture = self.texture(picture);
         let material = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } });
         let material = push(&mut self.json["materials"], material);
         self.json["meshes"][0]["primitives"][0]["material"] = json!(material);
         material
+    }
+
+    /// Adds a texture of a picture; its number.
+    pub(crate) fn texture(&mut self, picture: &[u8]) -> usize {
+        let view = self.view(picture);
+        let image = push(&mut self.json["images"], json!({ "bufferView": view, "mimeType": "image/png" }));
+        push(&mut self.json["textures"], json!({ "source": image }))
+    }
+
+    /// Gives the first primitive one material, and both sets of texture coordinates.
+    pub(crate) fn with_material(mut self, material: &Value) -> Self {
+        for set in ["TEXCOORD_0", "TEXCOORD_1"] {
+            let uvs = self.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+            self.attribute(set, uvs);
+        }
+        self.json["materials"] = json!([material]);
+        self.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        self
     }
 
     /// The JSON with its buffer's length.

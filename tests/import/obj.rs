@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::{DVec2, Vec2, Vec3};
+use terrell::import::{Coverage, Material};
 use terrell::texture::Wrap;
 
 fn read(obj: &str, others: &[(&str, &[u8])]) -> Asset {
@@ -129,6 +130,57 @@ fn alpha_of_a_picture_counts_where_map_d_names_it_again() {
     assert_eq!(asset.warnings.len(), 1);
 }
 
+/// The materials of a library.
+fn materials(mtl: &str, pictures: &[(&str, &[u8])]) -> Vec<Material> {
+    let files: Vec<_> = [("m.mtl", mtl.as_bytes())].into_iter().chain(pictures.iter().copied()).collect();
+    let asset = read(&format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3\n"), &files);
+    assert!(asset.warnings.is_empty(), "{:?}", asset.warnings);
+    asset.materials
+}
+
+#[test]
+fn material_of_colour_alone_is_purely_diffuse_and_has_two_sides() {
+    let a = &materials("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 250\nNi 1.45\nillum 2\n", &[])[0];
+    assert_eq!((a.metal.metallic, a.metal.roughness, a.specular.strength), (0.0, 1.0, 0.0));
+    assert_eq!((a.coverage, a.ior, a.double_sided), (Coverage::Opaque, 1.45, true));
+}
+
+#[test]
+fn metalness_and_roughness_make_a_material_reflect() {
+    let of = |lines: &str| {
+        let a = materials(&format!("newmtl a\n{lines}\n"), &[])[0].clone();
+        (a.metal.metallic, a.metal.roughness, a.specular.strength)
+    };
+    assert_eq!(of("Pr 0.25\nPm 0.75"), (0.75, 0.25, 1.0));
+    assert_eq!(of("Pr 0.5"), (0.0, 0.5, 1.0));
+    assert_eq!(of("Pm 1"), (1.0, 1.0, 1.0));
+    assert_eq!(of("Ni 1"), (0.0, 1.0, 0.0));
+}
+
+#[test]
+fn coverage_below_one_blends() {
+    let all = materials("newmtl a\nd 0.5\nnewmtl b\nTr 0.25\nnewmtl c\nd 1\nnewmtl d\nTr 0\n", &[]);
+    let coverage = |i: usize| (all[i].coverage, all[i].base_color[3]);
+    assert_eq!((coverage(0), coverage(1)), ((Coverage::Blend, 0.5), (Coverage::Blend, 0.75)));
+    assert_eq!((coverage(2), coverage(3)), ((Coverage::Opaque, 1.0), (Coverage::Opaque, 1.0)));
+    let (clear, solid) = (png(1, &[[255, 0, 0, 51]]), png(1, &[[255, 0, 0, 255]]));
+    let mtl =
+        "newmtl a\nmap_Kd p.png\nmap_d p.png\nnewmtl b\nmap_Kd q.png\nmap_d q.png\nnewmtl c\nmap_Kd p.png\n";
+    let all = materials(mtl, &[("p.png", &clear), ("q.png", &solid)]);
+    let coverage: Vec<_> = all.iter().map(|m| m.coverage).collect();
+    assert_eq!(coverage, [Coverage::Blend, Coverage::Opaque, Coverage::Opaque]);
+}
+
+#[test]
+fn what_is_not_read_of_physical_materials_is_warned_of() {
+    let mtl = "newmtl a\nNi 0.5\nmap_Pr p.png\nmap_Pm p.png\nnorm p.png\n";
+    let asset = read(&format!("mtllib m.mtl\n{SQUARE}f 1 2 3\n"), &[("m.mtl", mtl.as_bytes())]);
+    assert!(warns(&asset, "m.mtl: line 2: a refractive index of 0.5 is passed over"));
+    assert!(warns(&asset, "m.mtl: line 3: `map_pr`") && warns(&asset, "line 4: `map_pm`"));
+    assert!(warns(&asset, "line 5: `norm`"));
+    assert_eq!(asset.materials[0].ior, 1.5);
+}
+
 #[test]
 fn several_libraries_on_a_line_are_read_and_each_only_once() {
     let text = format!("mtllib a.mtl b.mtl\nmtllib a.mtl\n{SQUARE}usemtl b\nf 1 2 3\n");
@@ -196,6 +248,10 @@ fn lines_of_a_library_at_fault_are_named() {
         ("Ke 1 2 nan", "not a finite number"),
         ("Kd 1 -2 3", "no negative number"),
         ("d", "`` is not a number"),
+        ("Pm 1.5", "1.5 is out of range: type a number from 0 to 1"),
+        ("Pr -1", "-1 is out of range"),
+        ("Pr nan", "not a finite number"),
+        ("Ni glass", "`glass` is not a number"),
         ("newmtl", "without a name"),
         ("map_Kd", "without the name of a picture"),
         ("map_Kd -s 1 1 1", "without the name of a picture"),

@@ -193,7 +193,8 @@ fn extensions(value: &Value, job: &mut Job) {
         .filter_map(|material| material["extensions"].as_object())
         .flat_map(|extensions| extensions.keys().map(String::as_str))
         .collect();
-    let told = |name: &str| SUPPORTED.contains(&name) || required.contains(name) || of_materials.contains(name);
+    let told =
+        |name: &str| SUPPORTED.contains(&name) || required.contains(name) || of_materials.contains(name);
     let unknown: Vec<_> = strings(&value["extensionsUsed"]).filter(|name| !told(name)).collect();
     if !unknown.is_empty() {
         job.warn("extensionsUsed", format!("passed over: {}", unknown.join(", ")), "");

@@ -62,7 +62,12 @@ pub(super) struct Extension<'a> {
 
 impl<'a> Extension<'a> {
     /// Looks an extension up among those of the material at `element`.
-    pub(super) fn find(others: Option<&'a Map<String, Value>>, name: &str, element: &str, job: &mut Job) -> Self {
+    pub(super) fn find(
+        others: Option<&'a Map<String, Value>>,
+        name: &str,
+        element: &str,
+        job: &mut Job,
+    ) -> Self {
         let element = format!("{element}.extensions.{name}");
         let value = others.and_then(|others| others.get(name));
         let entries = value.and_then(Value::as_object);

@@ -117,7 +117,8 @@ impl Attributes<'_, '_> {
             let unit = DVec3::new(x.into(), y.into(), z.into()).normalize_or_zero();
             if unit == DVec3::ZERO || (w.abs() - 1.0).abs() > HANDEDNESS || !w.is_finite() {
                 let vertex = picked.map_or(i, |picked| picked[i] as usize);
-                let what = format!("vertex {vertex} is {value:?}, which is no direction with a sign of 1 or -1");
+                let what =
+                    format!("vertex {vertex} is {value:?}, which is no direction with a sign of 1 or -1");
                 let hint = "all tangents of this primitive are passed over: export them again, or none";
                 self.job.warn(element, what, hint);
                 return None;

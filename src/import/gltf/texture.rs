@@ -132,11 +132,7 @@ fn picture(
 }
 
 /// A copy of a picture, changed.
-fn altered(
-    picture: &Picture,
-    alter: fn(Picture) -> Picture,
-    job: &mut Job,
-) -> Result<Arc<Picture>, Refusal> {
+fn altered(picture: &Picture, alter: fn(Picture) -> Picture, job: &mut Job) -> Result<Arc<Picture>, Refusal> {
     job.files.take(picture::size(picture))?;
     Ok(Arc::new(alter(picture.clone())))
 }
