@@ -23,7 +23,7 @@ impl Polarised {
 /// A cosine with which no formula divides zero by zero: any sign, and not quite grazing.
 #[inline]
 fn cosine(cos_i: f64) -> f64 {
-    cos_i.abs().max(1e-12).min(1.0)
+    cos_i.abs().clamp(1e-12, 1.0)
 }
 
 /// Between transparent bodies, by polarisation: `cos_i` of the angle between light and normal, `ratio` the index

@@ -277,7 +277,10 @@ fn parts_add_up_and_lines_are_kept_apart() {
     assert_eq!(Surroundings::default().radiance(DVec3::X, (0.1, 0.1), &[500.0, 600.0]), [0.0; 2]);
 }
 
-fn catalogue(text: &str) -> Result<Vec<Star>, Vec<(Option<(usize, usize)>, String, String)>> {
+/// Line and column of a fault, what it is, and the hint.
+type Told = (Option<(usize, usize)>, String, String);
+
+fn catalogue(text: &str) -> Result<Vec<Star>, Vec<Told>> {
     let mut report = Report::default();
     let stars = parse_catalogue(Path::new("stars.csv"), &Arc::from(text), &mut report);
     assert_eq!(stars.is_none(), !report.faults.is_empty());
@@ -304,8 +307,8 @@ fn catalogue_puts_stars_where_the_sky_has_them() {
         near_vector(star.direction, expected, 1e-15);
     }
     close(stars[0].illuminance, MAGNITUDE_ZERO_LX, 1e-15);
-    close(stars[1].illuminance, MAGNITUDE_ZERO_LX / 100_f64.powf(0.2), 1e-12);
-    close(stars[2].illuminance, MAGNITUDE_ZERO_LX * 100_f64.powf(0.3), 1e-12);
+    close(stars[1].illuminance, MAGNITUDE_ZERO_LX / libm::pow(100.0, 0.2), 1e-12);
+    close(stars[2].illuminance, MAGNITUDE_ZERO_LX * libm::pow(100.0, 0.3), 1e-12);
     assert_eq!([stars[1].kelvin, stars[3].kelvin, stars[4].kelvin], [6000.0, COOLEST_K, HOTTEST_K]);
 }
 

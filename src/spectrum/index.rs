@@ -91,7 +91,7 @@ impl Index {
     /// None if a number is not finite or if the index is below 1 at a visible wavelength.
     pub fn cauchy(a: f64, b: f64, c: f64) -> Option<Self> {
         let index = Self::Cauchy { a, b, c, range_nm: USUAL_RANGE_NM };
-        index.is_sound(|nm| cauchy(a, b, c, nm).0).then_some(index)
+        is_sound(|nm| cauchy(a, b, c, nm).0).then_some(index)
     }
 
     /// `n² = 1 + Σ b λ²/(λ² - c)`, with λ in micrometres and c in µm², from 300 to 2500 nm but no nearer to
@@ -116,7 +116,7 @@ impl Index {
         }
         let sound = range_nm.0 <= VISIBLE_NM.0 && range_nm.1 >= VISIBLE_NM.1 && c.iter().all(|c| *c >= 0.0);
         let index = Self::Sellmeier { b, c, range_nm };
-        (sound && index.is_sound(|nm| sellmeier(&b, &c, nm).0)).then_some(index)
+        (sound && is_sound(|nm| sellmeier(&b, &c, nm).0)).then_some(index)
     }
 
     /// glTF's `KHR_materials_dispersion`: the index at the d line (587.56 nm), and 20 over the Abbe number.
@@ -189,12 +189,12 @@ impl Index {
         }
         values
     }
+}
 
-    /// Whether a formula gives an index that a body can have, all over the visible wavelengths.
-    fn is_sound(&self, formula: impl Fn(f64) -> f64) -> bool {
-        let step = (VISIBLE_NM.1 - VISIBLE_NM.0) / 100.0;
-        (0..=100).all(|i| (1.0..HIGHEST).contains(&formula(VISIBLE_NM.0 + step * f64::from(i))))
-    }
+/// Whether a formula gives an index that a body can have, all over the visible wavelengths.
+fn is_sound(formula: impl Fn(f64) -> f64) -> bool {
+    let step = (VISIBLE_NM.1 - VISIBLE_NM.0) / 100.0;
+    (0..=100).all(|i| (1.0..HIGHEST).contains(&formula(VISIBLE_NM.0 + step * f64::from(i))))
 }
 
 /// A formula within its range, its end value beyond.
@@ -213,7 +213,8 @@ fn held(
 /// Index and group index from `n` and `-λ dn/dλ`, neither of them below 1.
 #[inline]
 fn bounded(n: f64, lag: f64, which: impl Fn(f64, f64) -> f64) -> f64 {
-    let possible = n.max(1.0).min(HIGHEST);
+    // Also for a square root of less than nothing.
+    let possible = if n >= 1.0 { n.min(HIGHEST) } else { 1.0 };
     let group = if possible == n { (n + lag).max(1.0) } else { possible };
     which(possible, group)
 }

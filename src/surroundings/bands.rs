@@ -121,6 +121,8 @@ mod tests {
     use super::*;
     use crate::surroundings::{Kinds, seeded};
 
+    const RADII: [f64; 8] = [1e-9, 1e-6, 0.01, 0.1, 0.7, 1.6, 3.0, 3.15];
+
     fn directions(seed: u64, count: usize) -> Vec<DVec3> {
         seeded(seed, count, Kinds::Alike { kelvin: 5000.0, magnitude: 0.0 })
             .map(|star| star.direction)
@@ -138,26 +140,32 @@ mod tests {
         points
     }
 
+    /// The points within an angle of a direction, by cells (if there are any) or one by one.
+    fn found(points: &[DVec3], d: DVec3, radius: f64, cells: Option<&(Bands, Vec<u32>)>) -> Vec<u32> {
+        let chord = if radius < PI { 2.0 * libm::sin(0.5 * radius) } else { 2.1 };
+        let mut numbers = Vec::new();
+        match cells {
+            None => numbers.extend(0..points.len() as u32),
+            Some((bands, order)) => {
+                bands.near(d, radius, |stretch| numbers.extend_from_slice(&order[stretch]));
+            }
+        }
+        numbers.retain(|i| d.distance(points[*i as usize]) <= chord);
+        numbers.sort_unstable();
+        numbers
+    }
+
     #[test]
-    fn cells_hold_all_points_that_a_search_one_by_one_finds() {
+    fn cells_hold_all_points_that_a_search_one_by_one_finds_each_once() {
         for count in [0, 3, 2000] {
             let points = points(count);
-            let (bands, order) = Bands::new(&points);
-            let mut looks = points.clone();
-            looks.truncate(60);
+            let cells = Bands::new(&points);
+            let mut looks = points[..points.len().min(60)].to_vec();
             looks.extend(directions(2, 60));
             looks.extend(DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]));
-            for d in looks {
-                for radius in [1e-9, 1e-6, 0.01, 0.1, 0.7, 1.6, 3.0, 3.15] {
-                    let chord = if radius < PI { 2.0 * libm::sin(0.5 * radius) } else { 2.1 };
-                    let is_near = |i: u32| d.distance(points[i as usize]) <= chord;
-                    let mut found = Vec::new();
-                    bands.near(d, radius, |stretch| found.extend_from_slice(&order[stretch]));
-                    found.retain(|i| is_near(*i));
-                    found.sort_unstable();
-                    let all: Vec<u32> = (0..points.len() as u32).filter(|i| is_near(*i)).collect();
-                    assert_eq!(found, all, "{d} {radius}");
-                }
+            for (d, radius) in looks.iter().flat_map(|d| RADII.map(|radius| (*d, radius))) {
+                let all = found(&points, d, radius, None);
+                assert_eq!(found(&points, d, radius, Some(&cells)), all, "{d} {radius}");
             }
         }
     }

@@ -95,22 +95,13 @@ impl Stars {
     /// This is von Mises and Fisher's distribution, cut at 4σ: a Gaussian where it is narrow, and for any width a
     /// kernel whose integral over the sphere is 1. So a pixel of any size gets the whole of a star's light, once.
     pub fn radiance<const N: usize>(&self, d: DVec3, sigma: f64, nm: &[f64; N]) -> [f64; N] {
-        let sigma = sigma.max(NARROWEST).min(WIDEST);
-        let kappa = 1.0 / (sigma * sigma);
-        // Squares of chords: 2 (1 - cos θ), without its rounding where it is small.
-        let cut = CUT * CUT * sigma * sigma;
-        let (cut, radius) =
-            if cut < 4.0 { (cut, 2.0 * libm::asin(0.5 * CUT * sigma)) } else { (f64::INFINITY, PI) };
-        let peak = kappa / (TAU * -libm::expm1(-0.5 * kappa * cut.min(4.0)));
+        let kernel = Kernel::new(sigma);
         let mut sum = [0.0; N];
-        self.bands.near(d, radius, |stretch| {
+        self.bands.near(d, kernel.radius, |stretch| {
             for star in &self.points[stretch] {
                 let chord2 = (d - star.direction).length_squared();
-                if chord2 < cut {
-                    let weight = star.factor * peak * libm::exp(-0.5 * kappa * chord2);
-                    for (sum, nm) in sum.iter_mut().zip(nm) {
-                        *sum += weight * planck(*nm, star.kelvin);
-                    }
+                if chord2 < kernel.cut {
+                    star.add_to(&mut sum, kernel.at(chord2), nm);
                 }
             }
         });
@@ -118,9 +109,50 @@ impl Stars {
     }
 }
 
+impl Point {
+    #[inline]
+    fn add_to<const N: usize>(&self, sum: &mut [f64; N], weight: f64, nm: &[f64; N]) {
+        let weight = weight * self.factor;
+        for (sum, nm) in sum.iter_mut().zip(nm) {
+            *sum += weight * planck(*nm, self.kelvin);
+        }
+    }
+}
+
+/// How a point is spread, in terms of the squares of chords on the unit sphere: `2 (1 - cos θ)`, without the
+/// rounding of that where it is small.
+struct Kernel {
+    kappa: f64,
+    peak: f64,
+    /// Where it ends.
+    cut: f64,
+    /// The same as an angle.
+    radius: f64,
+}
+
+impl Kernel {
+    fn new(sigma: f64) -> Self {
+        let sigma = if sigma > NARROWEST { sigma.min(WIDEST) } else { NARROWEST };
+        let kappa = 1.0 / (sigma * sigma);
+        let chord = CUT * sigma;
+        let (cut, radius) = if chord < 2.0 {
+            (chord * chord, 2.0 * libm::asin(0.5 * chord))
+        } else {
+            // The antipode too, whatever rounding makes of its distance.
+            (f64::INFINITY, PI)
+        };
+        let peak = kappa / (TAU * -libm::expm1(-0.5 * kappa * cut.min(4.0)));
+        Self { kappa, peak, cut, radius }
+    }
+
+    fn at(&self, chord2: f64) -> f64 {
+        self.peak * libm::exp(-0.5 * self.kappa * chord2)
+    }
+}
+
 fn point(star: Star) -> Option<Point> {
     let direction = star.direction.try_normalize()?;
-    let kelvin = star.kelvin.max(COOLEST_K).min(HOTTEST_K);
+    let kelvin = if star.kelvin > COOLEST_K { star.kelvin.min(HOTTEST_K) } else { COOLEST_K };
     let factor = star.illuminance / luminance(kelvin);
     (factor > 0.0 && factor.is_finite()).then_some(Point { direction, kelvin, factor })
 }
