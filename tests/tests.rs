@@ -22,6 +22,7 @@ mod shadow;
 mod spectrum;
 mod support;
 mod terrell;
+mod texture;
 mod tint;
 mod tree;
 mod velocity;
