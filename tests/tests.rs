@@ -27,6 +27,7 @@ mod spectrum;
 mod support;
 mod surroundings;
 mod terrell;
+mod texture;
 mod tint;
 mod tree;
 mod velocity;

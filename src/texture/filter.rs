@@ -73,10 +73,10 @@ impl Taps {
     /// itself. Taps with the weights of a tent add (reach² - 1)/6 squares of their step along the major axis.
     /// So all variances can be had without a jump: nothing changes abruptly with the footprint.
     fn new(ellipse: &Ellipse, top: usize) -> Option<Self> {
-        let [larger, smaller] = ellipse.squares.map(|square| SHARP + VARIANCE * (square - SHARP).max(0.0));
-        if !larger.is_finite() {
+        if !ellipse.squares[0].is_finite() {
             return None;
         }
+        let [larger, smaller] = ellipse.squares.map(|square| SHARP + VARIANCE * (square - SHARP).max(0.0));
         // The longest row of taps is as long as this; a longer ellipse is made wider.
         let smaller = smaller.max(larger / (1.0 + (REACH * REACH - 1.0) / 1.5));
         let step_squared = 4.0 * smaller;
