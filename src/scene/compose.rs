@@ -71,6 +71,7 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
             surroundings,
             effects,
             depth,
+            faintest: manifest.picture.faintest,
             observer,
         })
     } else {

@@ -40,6 +40,8 @@ pub struct Scene {
     pub effects: Effects,
     /// How many mirrors one after another are followed.
     pub depth: u32,
+    /// Rays of which the observer would get less than this part are not followed.
+    pub faintest: f64,
     /// The camera.
     pub observer: Observer,
 }
@@ -57,6 +59,7 @@ impl Scene {
             see_through: self.surfaces.iter().any(Surface::lets_through),
             effects: self.effects,
             depth: self.depth,
+            faintest: self.faintest,
         }
     }
 }

@@ -11,7 +11,8 @@
 //! Fresnel's equations are those of media at rest with the face. Light is without polarisation after each face.
 
 use super::medium::{Inside, Light4, in_medium};
-use super::{Gathered, Leg, Lit, Path, Seen, Step};
+use super::{Gathered, Leg, Lit, Path, Seen, Step, scaled};
+use crate::world::Hit;
 use crate::fresnel;
 use crate::spacetime::{FourVector, Rest, SightRay};
 use crate::surface::{Glass, Lobes, Medium, Response, Surface};
@@ -66,6 +67,7 @@ impl Lit<'_> {
         if seen.path.depth == 0 || amount <= 0.0 && glass.roughness >= 0.5 {
             return;
         }
+        // The reflection of a rough face fades; a ray through it stays sharp.
         if glass.thin {
             self.add_pane(glass, amount, surface, seen, gathered);
         } else {
@@ -113,7 +115,7 @@ impl Lit<'_> {
         };
         let step = Step { before: seen.path.steps, part: &part, shift: seen.shift };
         let path = seen.path.filtered(&seen.nm.map(part), &step);
-        if !path.is_faint() {
+        if !path.is_faint(self.faintest) {
             let path = Path { depth: path.depth - 1, way: seen.way, ..path };
             let event = seen.spot.beyond(seen.hit.rest, 0.0);
             let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
@@ -130,7 +132,10 @@ impl Lit<'_> {
         seen: &Seen<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        let (inside, further) = self.beyond(glass.medium, seen);
+        let (inside, further, contact) = self.beyond(glass.medium, seen);
+        if let Some(hit) = contact {
+            return self.meet_in_contact(&hit, seen, gathered);
+        }
         let event = seen.spot.beyond(seen.hit.rest, further);
         let (near, far) = (self.medium_number(&seen.leg.inside), self.medium_number(&inside));
         if near == far {
@@ -155,9 +160,16 @@ impl Lit<'_> {
         let even = !disperses(face.near) && !disperses(face.far);
 
         let step = Step { before: seen.path.steps, part: &reflectance, shift };
-        let path = seen.path.filtered(&parts(&reflectance, even), &step);
-        self.reflect(face.normal, &path, seen, gathered);
-
+        let reflected = seen.path.filtered(&parts(&reflectance, even), &step);
+        let alone = reflected.is_faint(self.faintest);
+        if !alone {
+            self.reflect(face.normal, &reflected, seen, gathered);
+        }
+        // What is not followed goes where the rest goes.
+        let part = |nm: f64| {
+            let at = self.at_face(&face, seen, nm * shift);
+            part(nm) * if alone && at.part > 0.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 }
+        };
         let step = Step { before: seen.path.steps, part: &part, shift };
         let onward = |light: Light4| Leg {
             ray: SightRay { event, k: light.step },
@@ -166,7 +178,7 @@ impl Lit<'_> {
         };
         let path = seen.path.filtered(&parts(&part, even && tint.is_none()), &step);
         let path = Path { depth: path.depth - 1, way: seen.way, ..path };
-        if path.is_faint() {
+        if path.is_faint(self.faintest) {
             return;
         }
         if even || N == 1 {
@@ -182,26 +194,46 @@ impl Lit<'_> {
         }
     }
 
-    /// What is beyond a face, and how far the last of the surfaces is that touch it (m, rest frame).
-    fn beyond<const N: usize>(&self, medium: u32, seen: &Seen<'_, N>) -> (Inside, f64) {
+    /// A surface that lets nothing through and touches a face from beyond: it is seen as from within the medium.
+    fn meet_in_contact<const N: usize>(
+        &self,
+        hit: &Hit<'_>,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<N>,
+    ) {
+        let Some(surface) = self.surfaces.get(hit.surface()) else { return };
+        let spot = hit.spot(&seen.leg.ray);
+        let omega = (hit.rest.rest_from_lab * seen.leg.wave).t;
+        let shift = self.effects.shift(omega);
+        let nm = scaled(seen.lanes, 1.0 / shift);
+        let departure = spot.departure(hit.rest);
+        self.meet(surface, &Seen { hit, spot, departure, omega, shift, nm, ..*seen }, gathered);
+    }
+
+    /// What is beyond a face, how far the last of the surfaces is that touch it (m, rest frame), and whether one of these
+    /// lets nothing through.
+    fn beyond<const N: usize>(&self, medium: u32, seen: &Seen<'_, N>) -> (Inside, f64, Option<Hit<'_>>) {
         let toggled = |inside: Inside, medium: u32, outside: bool| {
             if outside { inside.with(medium) } else { inside.without(medium) }
         };
-        let alone = (toggled(seen.leg.inside, medium, seen.spot.outside), 0.0);
-        if self.media.len() < 2 {
-            return alone;
-        }
+        let alone = (toggled(seen.leg.inside, medium, seen.spot.outside), 0.0, None);
         let gap = TOUCHING * seen.spot.size;
         let reach = gap / seen.spot.k.x.length();
         let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
         let mut crossed: Vec<(u32, bool)> = Vec::new();
+        let mut contact = None;
         self.world.until(&ray, 2.0 * reach, |hit| {
-            let medium = self.surfaces.get(hit.surface()).and_then(Surface::medium);
-            if let Some(medium) = medium {
-                crossed.push((medium, hit.spot(&ray).outside));
+            match self.surfaces.get(hit.surface()) {
+                Some(surface) if !surface.lets_through() => contact = Some(hit),
+                Some(surface) => crossed.extend(surface.medium().map(|m| (m, hit.spot(&ray).outside))),
+                None => {}
             }
-            false
+            contact.is_some()
         });
+        if let Some(hit) = contact {
+            // Its s counts from the start of the ray.
+            return (alone.0, 0.0, Some(hit.later(seen.hit.s - reach)));
+        }
         crossed.sort_unstable();
         crossed.dedup();
         if crossed.iter().all(|(other, _)| *other == medium) {
@@ -209,7 +241,7 @@ impl Lit<'_> {
         }
         // Left first, then entered: glass against water is no gap and no overlap.
         let after = crossed.iter().fold(seen.leg.inside, |inside, &(m, outside)| toggled(inside, m, outside));
-        (after, 2.0 * gap)
+        (after, 2.0 * gap, None)
     }
 
     fn face<const N: usize>(&self, inside: &Inside, normal: DVec3, seen: &Seen<'_, N>) -> Face<'_> {

@@ -155,7 +155,7 @@ impl Lit<'_> {
         let step = Step { before: seen.path.steps, part: &part, shift };
         let parts = seen.lanes.map(|lane| part(lane / shift));
         let path = seen.path.filtered(&parts, &step);
-        if !path.is_faint() {
+        if !path.is_faint(self.faintest) {
             self.meet(surface, &seen.through(&path), gathered);
         }
     }

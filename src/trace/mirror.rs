@@ -72,7 +72,7 @@ impl Lit<'_> {
         seen: &Seen<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        if path.is_faint() {
+        if path.is_faint(self.faintest) {
             return;
         }
         let leg = if seen.leg.inside.is_empty() {

@@ -73,6 +73,9 @@ pub struct Lit<'a> {
     pub effects: Effects,
     /// How many mirrors and faces of glass one after another are followed.
     pub depth: u32,
+    /// Rays of which the observer would get less than this part are not followed. At a face of glass the other ray gets
+    /// their part, so that no light is lost.
+    pub faintest: f64,
 }
 
 /// Light as the observer sees it.
@@ -106,8 +109,6 @@ pub struct Cone {
 
 /// The most surfaces with holes that are looked through one after another.
 const MOST_VEILS: u32 = 100;
-/// Rays of which the observer gets less than this part are not followed.
-const FAINTEST: f64 = 1e-6;
 
 /// Part of a sight ray, from one surface to the next.
 #[derive(Debug, Clone, Copy)]
@@ -163,8 +164,8 @@ impl<'p, const N: usize> Path<'p, N> {
         Self { throughput, steps: Some(step), ..*self }
     }
 
-    fn is_faint(&self) -> bool {
-        self.throughput.iter().all(|value| *value < FAINTEST)
+    fn is_faint(&self, faintest: f64) -> bool {
+        self.throughput.iter().all(|value| *value < faintest)
     }
 }
 
@@ -315,7 +316,7 @@ impl Lit<'_> {
                 Path { veils: seen.path.veils - 1, way: seen.way, ..seen.path.dimmed(1.0 - share, &step) };
             let event = seen.spot.beyond(seen.hit.rest, 0.0);
             let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
-            if !path.is_faint() {
+            if !path.is_faint(self.faintest) {
                 self.gather(&leg, seen.lanes, &path, gathered);
             }
         }

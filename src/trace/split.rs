@@ -26,7 +26,7 @@ impl Caught {
 }
 
 /// Neighbours that differ by more than this part of the larger are looked at more closely.
-const JUMP: f64 = 0.1;
+const JUMP: f64 = 0.2;
 /// An edge is found to this part of the distance between neighbours: 2⁻⁵.
 const HALVINGS: u32 = 5;
 /// A line's wavelength has been found when it changes by less than this part.
@@ -74,7 +74,7 @@ impl Lit<'_> {
         let largest = values.iter().copied().fold(0.0, f64::max);
         for pair in 0..N.saturating_sub(1) {
             let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-            if (a.1 - b.1).abs() > JUMP * a.1.max(b.1) {
+            if (a.1 - b.1).abs() > JUMP * a.1.max(b.1) && (a.1 - b.1).abs() > 0.05 * largest {
                 gathered.light.lines += refine(a, b, largest, HALVINGS, &mut |nm| single(nm).0);
             }
         }

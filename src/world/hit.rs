@@ -55,6 +55,12 @@ impl Hit<'_> {
         }
     }
 
+    /// The same hit on a ray that starts `s` further from it.
+    #[must_use]
+    pub fn later(self, s: f64) -> Self {
+        Self { s: self.s + s, ..self }
+    }
+
     /// Number of the surface met.
     pub fn surface(&self) -> usize {
         let of_mesh = match (&self.met, &self.placed.form) {

@@ -158,6 +158,7 @@ impl Stage {
             surroundings: self.surroundings.clone(),
             effects: self.effects,
             depth: self.depth,
+            faintest: 1e-9,
             observer: eye.observer(),
         }
     }
