@@ -79,6 +79,8 @@ pub struct Field {
 pub(crate) trait Kind {
     /// What comes of it.
     type Value;
+    /// Whether a key may be written with nothing after it.
+    const MAY_BE_EMPTY: bool = false;
     /// What it looks like.
     fn shape() -> Shape;
     /// The value; all faults are reported.
@@ -163,7 +165,9 @@ impl<'n> Entries<'n> {
         let Some(entry) = self.get(key) else { return Ok(None) };
         reader
             .under(&entry.key, &entry.value.place, |reader| {
-                reader.something(&entry.value)?;
+                if !K::MAY_BE_EMPTY {
+                    reader.something(&entry.value)?;
+                }
                 K::read(&entry.value, reader)
             })
             .map(Some)
