@@ -16,6 +16,7 @@ mod body;
 mod course;
 mod glass;
 mod light;
+mod list;
 mod material;
 mod motion;
 mod names;
