@@ -2,6 +2,7 @@
 
 mod faults;
 mod hostile;
+mod language;
 mod reference;
 mod units;
 mod values;

@@ -164,6 +164,8 @@ impl Kind for Assets {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Self::Value> {
         if let Content::Map(entries) = &node.content {
             reader.assets = entries.iter().map(|entry| entry.key.clone()).collect();
+            let solids = entries.iter().filter(|entry| solid::is_solid(&entry.value));
+            reader.solids = solids.map(|entry| entry.key.clone()).collect();
         }
         Named::<AssetKind>::read(node, reader)
     }
@@ -251,15 +253,23 @@ impl Kind for Bodies {
         let known_as = |item: &Node| name(item, "name").or_else(|| name(item, "asset")).unwrap_or_default();
         reader.bodies = items.iter().map(|item| known_as(item)).collect();
         let mut own = BTreeSet::new();
-        let mut distinct = Ok(());
+        let mut sound = Ok(());
         for item in items {
             let (Some(name), Some(node)) = (name(item, "name"), item.get("name")) else { continue };
             if !own.insert(name.clone()) {
                 let what = format!("another body is named `{name}` already");
-                distinct = Err(reader.fault(&node.place, what, format!("name: {name}_2")));
+                sound = Err(reader.fault(&node.place, what, format!("name: {name}_2")));
+            }
+        }
+        for item in items {
+            if name(item, "asset").is_some_and(|asset| reader.solids.contains(&asset))
+                && let Some(materials) = item.get("materials")
+            {
+                let what = "a shape is all of one material, without a name";
+                sound = Err(reader.fault(&materials.place, what, "material: mirror"));
             }
         }
         let bodies = List::<Body>::read(node, reader)?;
-        distinct.map(|()| bodies)
+        sound.map(|()| bodies)
     }
 }

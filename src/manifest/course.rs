@@ -10,8 +10,8 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 record! {
-    /// Light that goes on and off, on the clock of what shines: that reads zero where it passes its `at`.
-    pub Blinking, "a blinking light" {
+    /// When something is lit, on and off, on the clock of what shines: that reads zero where it passes its `at`.
+    pub Blinking, "what blinks" {
         /// From one lighting up to the next, metres of light travel: a time, or the way of light in it.
         period: f64 = Period, required, "6.67 ns";
         /// The part of each period in which it is lit: 0.5 unless said.
@@ -23,7 +23,7 @@ record! {
 
 record! {
     /// What a light is like at one time; linear between one and the next, and held before the first and after the last.
-    pub Key, "a key of a light" {
+    pub Key, "a moment of a light" {
         /// When, on its own clock, metres of light travel.
         at: f64 = Instant, required, "2 s";
         /// How bright, as a multiple of what the light says: 1 unless said.

@@ -128,6 +128,17 @@ fn refracts(node: &Node, index: &Index, reader: &mut Reader<'_>) -> Read<()> {
         Index::Constant(_) | Index::Named(_) => return Ok(()),
     };
     let place = node.get(key).map_or(&node.place, |formula| &formula.place);
+    if let Index::Sellmeier(terms) = index {
+        let mut resonances = terms.iter().map(|[_, c]| c.sqrt() * 1e3);
+        if let Some(nm) = resonances.find(|nm| (380.0..=780.0).contains(nm)) {
+            let what = format!("this formula has a resonance in the midst of the visible, at {nm:.0} nm");
+            return Err(reader.fault(
+                place,
+                what,
+                "the second number of each pair is the square of a wavelength in um",
+            ));
+        }
+    }
     for nm in (380..=780).step_by(10) {
         let index = index_squared(index, f64::from(nm) * 1e-3);
         if !(1.0..=GREATEST_INDEX * GREATEST_INDEX).contains(&index) {
@@ -151,7 +162,7 @@ fn index_squared(index: &Index, wavelength: f64) -> f64 {
     match index {
         Index::Cauchy([a, b, c]) => {
             let n = a + (b + c / square) / square;
-            n * n.max(0.0)
+            n * n.abs()
         }
         Index::Sellmeier(terms) => 1.0 + terms.iter().map(|[b, c]| b * square / (square - c)).sum::<f64>(),
         Index::Constant(_) | Index::Named(_) => 1.0,

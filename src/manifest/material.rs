@@ -7,7 +7,7 @@ use super::light::{Glow, GlowKind};
 use super::names::{self, Nameable, Names};
 use super::node::Node;
 use super::paint::{Paint, PaintKind, is_number};
-use super::plain::{Part, Placed, word, words};
+use super::plain::{Part, Placed, words};
 use super::quantity::Instant;
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, choice, record};
@@ -94,9 +94,17 @@ impl Kind for Beyond {
         if is_number(node) {
             return Part::read(node, reader).map(Self::Value);
         }
-        let known = ["mean", "hold", "0.5"];
-        let word = word(node, "what a surface does with light that no eye sees", &known, reader)?;
-        Ok(if word == "hold" { Self::Hold } else { Self::Mean })
+        match reader.text(node, "what a surface does with light that no eye sees", "mean")? {
+            "mean" => Ok(Self::Mean),
+            "hold" => Ok(Self::Hold),
+            other => {
+                let nearest = nearest_name(other, ["mean", "hold"]).unwrap_or("mean");
+                let hint = format!("{} (or hold, or a number from 0 to 1)", reader.typed(nearest));
+                let hint = if nearest == "hold" { hint.replace("or hold", "or mean") } else { hint };
+                let what = format!("`{other}` is neither mean nor hold nor a part of the light");
+                Err(reader.fault(&node.place, what, hint))
+            }
+        }
     }
 }
 
@@ -158,7 +166,7 @@ record! {
 
 record! {
     /// A material at one time.
-    pub MaterialKey, "a key of a material" {
+    pub MaterialKey, "a moment of a material" {
         /// When, on the body's own clock, metres of light travel.
         at: f64 = Instant, required, "2 s";
         /// What it is like then.

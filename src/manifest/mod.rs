@@ -16,6 +16,7 @@ mod body;
 mod course;
 mod glass;
 mod light;
+mod list;
 mod material;
 mod motion;
 mod names;
@@ -170,13 +171,6 @@ fn read(path: &Path, root: &node::Node, report: &mut Report) -> Option<Manifest>
     for (name, asset) in &manifest.assets {
         if !used.contains(name) {
             report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
-        }
-    }
-    for body in &manifest.bodies {
-        let asset = manifest.assets.get(&body.asset.value);
-        if let (Some((name, _)), Some(_)) = (body.materials.first(), asset.and_then(AssetRef::solid)) {
-            let what = format!("a shape has no material named `{}`, nor any other", name.value);
-            report.fault(name.place.clone(), what, "material: mirror (for all of it)");
         }
     }
     if manifest.film.is_none() && manifest.exposures.count > 1 {

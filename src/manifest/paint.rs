@@ -20,6 +20,10 @@ impl Kind for Reflectance {
         Shape::Either(vec![Shape::Number("a part of the light, from 0 to 1"), SpectrumKind::shape()])
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Arc<Spectrum>> {
+        if is_pattern(node) {
+            let hint = reader.typed("0.8, or { rgb: 0.8 0.2 0.1 }");
+            return Err(reader.fault(&node.place, "here is no place for a pattern", hint));
+        }
         let named = node.text().is_some_and(|text| reader.spectra.has(text));
         let spectrum = if is_number(node) && !named {
             Arc::new(Spectrum::Constant(NotNegative::read(node, reader)?))

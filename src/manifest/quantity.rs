@@ -100,11 +100,15 @@ impl Reader<'_> {
             Content::List(items) => items.iter().map(|item| item.text()).collect::<Option<Vec<_>>>(),
             _ => None,
         };
+        let unit = example.rsplit(' ').next().filter(|unit| number_length(unit).is_none());
+        let is_quantity = number_length(example).is_some();
         let example = joined.filter(|items| !items.is_empty()).map_or(example.to_owned(), |items| {
             let joined = items.join(" ");
-            let unit = example.rsplit(' ').next().filter(|unit| number_length(unit).is_none());
             match unit {
-                Some(unit) if Written::of(&joined).rest.is_empty() => format!("{joined} {unit}"),
+                Some(unit) if is_quantity && Written::of(&joined).rest.is_empty() => {
+                    format!("{joined} {unit}")
+                }
+                _ if !is_quantity && number_length(&joined).is_some() => example.to_owned(),
                 _ => joined,
             }
         });

@@ -35,6 +35,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) light_speed: f64,
     /// The names under `assets`.
     pub(crate) assets: BTreeSet<String>,
+    /// Those of them that are shapes, not model files.
+    pub(crate) solids: BTreeSet<String>,
     /// The names of the bodies, each under its own name or that of its asset.
     pub(crate) bodies: Vec<String>,
     /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
@@ -53,6 +55,7 @@ impl<'a> Reader<'a> {
             folder,
             light_speed: LIGHT_SPEED,
             assets: BTreeSet::new(),
+            solids: BTreeSet::new(),
             bodies: Vec::new(),
             ring: false,
             spectra: Names::default(),

@@ -4,7 +4,7 @@ use super::motion::Rotation;
 use super::node::{Content, Node};
 use super::quantity::{Length, Point, Written};
 use super::reader::{Read, Reader};
-use super::record::{Kind, List, Shape, choice, record};
+use super::record::{Kind, List, Record, Shape, choice, record};
 use glam::{DQuat, DVec3};
 
 /// Most shapes that one is made of, itself included.
@@ -94,12 +94,14 @@ pub struct Plane;
 
 impl Kind for Plane {
     type Value = Self;
+    const MAY_BE_EMPTY: bool = true;
     fn shape() -> Shape {
-        Shape::Text("{}")
+        Shape::Text("nothing, or {}")
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Self> {
         match &node.content {
             Content::Map(entries) if entries.is_empty() => Ok(Self),
+            _ if node.is_nothing() => Ok(Self),
             _ => {
                 let what = "nothing is said of a plane: it is y = 0, turned and moved by keys beside it";
                 Err(reader.fault(&node.place, what, "plane: {}, at: 0 1 0 m, rotation: 30 deg about 1 0 0"))
@@ -176,10 +178,21 @@ pub(super) fn alone(node: &Node, reader: &mut Reader<'_>) -> Read<Option<Solid>>
         let pose = Pose { place: place(), at: DVec3::ZERO, rotation: DQuat::IDENTITY };
         return Ok(Some(Solid { place: place(), form, pose }));
     }
-    let fields = <SolidForm as super::record::Record>::fields();
+    let fields = <SolidForm as Record>::fields();
     let Some(field) = fields.iter().find(|field| field.key == word) else { return Ok(None) };
     let what = format!("`{word}` alone does not say which");
     Err(reader.fault(&node.place, what, format!("{{ {word}: {} }}", field.example)))
+}
+
+/// Whether an asset is meant to be a shape.
+pub(super) fn is_solid(asset: &Node) -> bool {
+    match &asset.content {
+        Content::Map(entries) => {
+            let fields = <SolidForm as Record>::fields();
+            entries.iter().any(|entry| fields.iter().any(|field| field.key == entry.key))
+        }
+        _ => asset.text() == Some("plane"),
+    }
 }
 
 /// A shape that is not made of too many.

@@ -144,7 +144,15 @@ const KEYS: &[&str] = &[
     "lights: [{ lamp: { intensity: @ } }, { spot: { intensity: @, cone: @, inner: @ } }, { sun: { illuminance: @ } }, @]",
     "exposures: { from: @, to: @, count: @, at: @, clock: @ }",
     "picture: { size: @, samples: @, depth: @, wavelengths: @, filter: @, white: @, stops: @ }\nfilm: { rate: @ }",
-    "light_speed: @\noutput: @\nfilm: @\nassets: @\neffects: @\nambient: @",
+    "materials: { a: { metal: @, roughness: @ }, b: { glass: @ }, c: { glass: { cauchy: @, color: @, distance: @ } }, d: { gloss: @ } }",
+    "materials: { a: { glass: { sellmeier: @ } }, b: { glass: { sellmeier: [[@, @]] } }, c: { ultraviolet: @ }, d: { keys: @ } }",
+    "materials: { a: { diffuse: { checker: @ } }, b: { diffuse: { picture: @, size: @ } }, c: { blinking: { period: @, on: @, off: @ } } }",
+    "lights: [{ lamp: { intensity: 1 cd }, blinking: { period: @, lit: @, start: @ } }, { lamp: { intensity: 1 cd }, keys: [{ at: @ }, @] }]",
+    "assets: { a: { sphere: { radius: @ } }, b: { box: { size: @ } }, c: { plane: @ }, d: { union: @ }, e: { difference: [@, @] } }",
+    "assets: { a: { cone: { radius: 1 m, height: @ }, at: @, rotation: @ }, b: { file: @, node: @ }, c: { cylinder: @ } }",
+    "surroundings: [{ uniform: @, velocity: @ }, { picture: @ }, { stars: @ }, { stars: { count: @, seed: @, faintest: @ } }, @]",
+    "surroundings: { stars: { catalogue: @, brightness: @ }, picture: { file: @, luminance: @ }, rotation: @ }",
+    "light_speed: @\noutput: @\nfilm: @\nassets: @\neffects: @\nambient: @\nsurroundings: @",
 ];
 
 const VALUES: &[&str] = &[

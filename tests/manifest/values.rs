@@ -12,7 +12,7 @@ use terrell::manifest::{
     Presence, Shape, Spectrum, Strength, View, White, Worldline,
 };
 
-fn load(name: &str) -> Manifest {
+pub(super) fn load(name: &str) -> Manifest {
     let mut report = Report::default();
     let manifest = manifest::load(&Path::new("tests/manifests/good").join(name), &mut report);
     assert_eq!((&report.faults, &report.warnings), (&vec![], &vec![]));
