@@ -314,11 +314,11 @@ fn catalogue_puts_stars_where_the_sky_has_them() {
 
 #[test]
 fn catalogue_faults_name_the_line_and_what_to_type() {
-    let text = "ra,dec,mag,K\n0,0,0,5000\n6h45m,-16.7,-1.46,9940\n10,95,1,5000\n10,20,nan,5000\n1,2,3\n10, 20, 3, 10, 5\n0,0,0,499\n";
+    let text = "ra,dec,mag,K\n0,0,0,5000\n6h45m,-16.7,-1.46,9940\n10,  95,1,5000\n10,20,nan,5000\n1,2,3\n10, 20, 3, 10, 5\n0,0,0,499\n";
     let faults = catalogue(text).unwrap_err();
     let expected = [
         ((3, 1), "the right ascension `6h45m` is not a number", "15 for each hour, such as 101.287"),
-        ((4, 4), "there is no declination of 95", "degrees from -90 to 90"),
+        ((4, 6), "there is no declination of 95", "degrees from -90 to 90"),
         ((5, 7), "there is no magnitude of nan", "such as -1.46"),
         ((6, 1), "this one 3 values", "such as `101.287, -16.716, -1.46, 9940`"),
         ((7, 1), "this one 5 values", "such as `101.287, -16.716, -1.46, 9940`"),
@@ -347,4 +347,8 @@ fn catalogue_without_stars_or_with_nothing_but_faults_ends_soon() {
         let _ = catalogue(text);
     }
     assert!(catalogue("0,0,0,5000\n😀,1,2,5000\n").is_err());
+    // A mark of UTF-8 is part of no number.
+    assert_eq!(catalogue("\u{feff}0,0,0,5000\n").unwrap().len(), 1);
+    // Only the first line may be a heading.
+    assert!(catalogue("ra,dec,mag,K\nright,up,dim,hot\n0,0,0,5000\n").is_err());
 }

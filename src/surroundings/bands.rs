@@ -175,11 +175,25 @@ mod tests {
         let points = directions(3, 20_000);
         let (bands, _) = Bands::new(&points);
         let mut most = 0;
-        for d in directions(4, 2000) {
+        for d in directions(4, 2000).into_iter().chain([DVec3::Y, -DVec3::Y]) {
             let mut count = 0;
             bands.near(d, 1e-3, |stretch| count += stretch.len());
             most = most.max(count);
         }
         assert!(most < 60, "{most}");
+    }
+
+    #[test]
+    fn no_point_is_shown_twice() {
+        // A half circle's meridians end in the same cell, of two.
+        let points = [DVec3::new(1e-12, 0.0, -1.0), DVec3::new(-1e-12, 0.0, -1.0)];
+        for point in points {
+            let (bands, _) = Bands::new(&[point]);
+            for radius in [0.5 * PI - 2e-9, 0.5 * PI, 3.0] {
+                let mut count = 0;
+                bands.near(DVec3::X, radius, |stretch| count += stretch.len());
+                assert!(count <= 1, "{point} {radius}");
+            }
+        }
     }
 }
