@@ -132,7 +132,8 @@ fn describe(material: &Material) -> String {
 
 fn reflection(material: &Material) -> Vec<String> {
     let (metal, specular) = (&material.metal, &material.specular);
-    if metal.metallic == 0.0 && specular.strength == 0.0 && material.clearcoat.is_none() {
+    let layered = material.clearcoat.is_some() || material.transmission.is_some();
+    if metal.metallic == 0.0 && specular.strength == 0.0 && !layered {
         return vec!["diffuse".to_owned()];
     }
     let mut words =
