@@ -25,7 +25,9 @@ impl Course {
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         match self {
-            Self::Keyed(keys) => Self::Keyed(keys.into_iter().map(|(t, value)| (t, value * factor)).collect()),
+            Self::Keyed(keys) => {
+                Self::Keyed(keys.into_iter().map(|(t, value)| (t, value * factor)).collect())
+            }
             other => other,
         }
     }
@@ -62,9 +64,10 @@ mod tests {
     fn blinking_course_is_lit_for_the_first_part_of_each_period_before_zero_too() {
         let course = Course::Blinking { period: 2.0, lit: 0.25, start: 0.5, inverted: false };
         let at = |tau| course.at(tau);
-        assert_eq!([0.25, 0.5, 0.75, 1.0, 2.5, 2.75, -1.5, -1.25, -1.0].map(at), [
-            0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0
-        ]);
+        assert_eq!(
+            [0.25, 0.5, 0.75, 1.0, 2.5, 2.75, -1.5, -1.25, -1.0].map(at),
+            [0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
+        );
         let other = Course::Blinking { period: 2.0, lit: 0.25, start: 0.5, inverted: true };
         assert_eq!([0.25, 0.5, 1.0].map(|tau| other.at(tau)), [1.0, 0.0, 1.0]);
     }
@@ -72,8 +75,9 @@ mod tests {
     #[test]
     fn keyed_course_is_linear_between_its_keys_and_held_at_its_ends() {
         let course = Course::Keyed(vec![(-1.0, 0.5), (1.0, 2.5), (2.0, 0.0)]);
-        assert_eq!([-9.0, -1.0, 0.0, 1.0, 1.5, 2.0, 7.0].map(|tau| course.at(tau)), [
-            0.5, 0.5, 1.5, 2.5, 1.25, 0.0, 0.0
-        ]);
+        assert_eq!(
+            [-9.0, -1.0, 0.0, 1.0, 1.5, 2.0, 7.0].map(|tau| course.at(tau)),
+            [0.5, 0.5, 1.5, 2.5, 1.25, 0.0, 0.0]
+        );
     }
 }

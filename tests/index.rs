@@ -71,7 +71,11 @@ fn no_index_is_below_one_or_not_a_number() {
         Index::from_dispersion(1.05, 400.0),
         Index::from_dispersion(1.5, 0.0),
         Index::Cauchy { a: 1.2, b: -0.5, c: 0.3, range_nm: (1.0, 1e9) },
-        Index::Sellmeier { b: [1.0, -3.0, 0.0, 0.0, 0.0, 0.0], c: [0.25, 0.36, 0.0, 0.0, 0.0, 0.0], range_nm: (1.0, 1e9) },
+        Index::Sellmeier {
+            b: [1.0, -3.0, 0.0, 0.0, 0.0, 0.0],
+            c: [0.25, 0.36, 0.0, 0.0, 0.0, 0.0],
+            range_nm: (1.0, 1e9),
+        },
     ];
     for index in odd.into_iter().chain(Index::NAMES.iter().map(|name| named(name))) {
         for nm in (0..9000).map(|i| libm::pow(10.0, f64::from(i) / 1000.0)).chain([500.0, 600.0]) {

@@ -32,10 +32,7 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     meshes.dedup();
     let surfaces = || scene.surfaces.iter().flat_map(Surface::all);
     let mirrors = surfaces().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
-    let glows = surfaces().filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
-    let shining = scene.lamps.iter().flat_map(|lamp| lamp.light.iter().map(|(_, source)| source));
-    let lines = shining.chain(glows).chain(&scene.ambient);
-    let lines = lines.into_iter().any(|source| !source.lines().is_empty());
+    let lines = !scene.lines.is_empty();
     let sampling = &plan.sampling;
     let mut needs = vec![
         ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),

@@ -62,18 +62,20 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
     if report.faults.is_empty() {
         let world = gathered.world.build();
         let depth = manifest.picture.depth;
-        Some(Scene {
+        let scene = Scene {
             world,
             surfaces: gathered.surfaces,
             media: gathered.workshop.media,
             lamps: gathered.lamps,
             ambient: gathered.ambient,
             surroundings,
+            lines: Vec::new(),
             effects,
             depth,
             faintest: manifest.picture.faintest,
             observer,
-        })
+        };
+        Some(scene.with_lines())
     } else {
         None
     }
@@ -118,7 +120,13 @@ impl Gathered {
                 continue;
             };
             let rest_from_mesh = rest_from_asset * instance.asset_from_mesh;
-            bounds = bounds.with(self.world.add(number, placement, &Form::Mesh(triangles.clone()), rest_from_mesh, first_surface));
+            bounds = bounds.with(self.world.add(
+                number,
+                placement,
+                &Form::Mesh(triangles.clone()),
+                rest_from_mesh,
+                first_surface,
+            ));
         }
         let volume = (bounds.hi - bounds.lo).element_product();
         self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
@@ -167,9 +175,9 @@ fn surfaces(
     workshop: &mut Workshop,
     report: &mut Report,
 ) -> Vec<Surface> {
-    let owner = Owner { place: &body.place, rest_from_lab: placement(&body.placement).rest_from_lab().boost() };
-    let mut instead: Vec<Option<&manifest::Material>> =
-        vec![body.material.as_deref(); asset.materials.len()];
+    let owner =
+        Owner { place: &body.place, rest_from_lab: placement(&body.placement).rest_from_lab().boost() };
+    let mut instead: Vec<Option<&manifest::Material>> = vec![body.material.as_deref(); asset.materials.len()];
     for (name, material) in &body.materials {
         let named: Vec<usize> =
             (0..instead.len()).filter(|i| asset.materials[*i].name == name.value).collect();

@@ -35,9 +35,8 @@ pub(super) fn from_manifest(light: &manifest::Light, report: &mut Report) -> Opt
         Strength::Total(Amount::Photometric(value)) => Amount::Photometric(value / divide),
         Strength::Total(Amount::Radiometric(value)) => Amount::Radiometric(value / divide),
     };
-    let light_of = |spectrum: &manifest::Spectrum, report: &mut Report| {
-        source(spectrum, amount, &light.place, report)
-    };
+    let light_of =
+        |spectrum: &manifest::Spectrum, report: &mut Report| source(spectrum, amount, &light.place, report);
     let light_parts = match &light.course {
         manifest::Course::Steady => vec![(Course::Steady, light_of(spectrum, report)?)],
         manifest::Course::Blinking(blinking) => {

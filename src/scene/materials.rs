@@ -46,9 +46,8 @@ impl Workshop {
         report: &mut Report,
     ) -> Surface {
         let beyond = Beyond { ultraviolet: end(material.ultraviolet), infrared: end(material.infrared) };
-        let mut paint = |workshop: &mut Self, paint: &manifest::Paint| {
-            workshop.paint(paint, beyond, owner.place, report)
-        };
+        let mut paint =
+            |workshop: &mut Self, paint: &manifest::Paint| workshop.paint(paint, beyond, owner.place, report);
         match &material.kind {
             MaterialKind::Imported => match file {
                 Some(file) => self.imported(file, beyond, owner),
@@ -296,12 +295,8 @@ fn relief(map: &import::NormalMap) -> NormalMap {
 }
 
 fn veil(file: &import::Material, alpha: f32) -> Option<Veil> {
-    let coverage = |cutoff| Coverage {
-        factor: alpha,
-        texture: file.base_texture.clone(),
-        vertex_colors: true,
-        cutoff,
-    };
+    let coverage =
+        |cutoff| Coverage { factor: alpha, texture: file.base_texture.clone(), vertex_colors: true, cutoff };
     let coverage = match file.coverage {
         import::Coverage::Opaque => None,
         import::Coverage::Mask { cutoff } => Some(coverage(Some(cutoff))),

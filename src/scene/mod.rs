@@ -36,6 +36,8 @@ pub struct Scene {
     pub ambient: Vec<Source>,
     /// What is beyond all bodies.
     pub surroundings: Vec<Sky>,
+    /// Wavelengths of all spectral lines, nm, each in its source's rest frame.
+    pub lines: Vec<f64>,
     /// Which effects are shown.
     pub effects: Effects,
     /// How many mirrors one after another are followed.
@@ -47,6 +49,26 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Everything that shines: of lamps, of surfaces, and from all around.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        let lamps = self.lamps.iter().flat_map(|lamp| lamp.light.iter().map(|(_, source)| source));
+        let surfaces = self.surfaces.iter().flat_map(Surface::all);
+        let glows = surfaces.filter_map(|surface| surface.glow.as_ref()).map(|glow| &glow.radiance);
+        lamps.chain(glows).chain(&self.ambient)
+    }
+
+    /// Takes note of all spectral lines.
+    #[must_use]
+    pub fn with_lines(mut self) -> Self {
+        let skies = self.surroundings.iter().flat_map(|sky| sky.sky.lines());
+        let lines = self.sources().flat_map(Source::lines).chain(skies).map(|line| line.wavelength_nm);
+        let mut lines: Vec<f64> = lines.collect();
+        lines.sort_unstable_by(f64::total_cmp);
+        lines.dedup();
+        self.lines = lines;
+        self
+    }
+
     /// The scene as the light loop takes it.
     pub fn lit(&self) -> Lit<'_> {
         Lit {
@@ -57,6 +79,7 @@ impl Scene {
             ambient: &self.ambient,
             surroundings: &self.surroundings,
             see_through: self.surfaces.iter().any(Surface::lets_through),
+            lines: &self.lines,
             effects: self.effects,
             depth: self.depth,
             faintest: self.faintest,

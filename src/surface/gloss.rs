@@ -144,9 +144,7 @@ impl<'s> Lobes<'s> {
     pub(crate) fn of(surface: &'s Surface, look: &Look<'_>) -> Option<Self> {
         let plain = || Self::plain(look.normal(surface.relief.as_ref()));
         match &surface.scatter {
-            Scatter::Diffuse(paint) => {
-                Some(Self { base: Some(paint.at(look)), diffuse: 1.0, ..plain() })
-            }
+            Scatter::Diffuse(paint) => Some(Self { base: Some(paint.at(look)), diffuse: 1.0, ..plain() }),
             Scatter::Metal(Polish { of, roughness }) => {
                 Some(Self { metal: Some(of), roughness: *roughness, ..plain() })
             }

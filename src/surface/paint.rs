@@ -55,9 +55,7 @@ impl Tint<'_> {
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         match self {
             Self::Of(of) => of.at(wavelength_nm),
-            Self::Between(a, b, share) => {
-                a.at(wavelength_nm) * (1.0 - share) + b.at(wavelength_nm) * share
-            }
+            Self::Between(a, b, share) => a.at(wavelength_nm) * (1.0 - share) + b.at(wavelength_nm) * share,
         }
     }
 

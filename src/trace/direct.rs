@@ -2,8 +2,8 @@
 
 use super::{Gathered, Lit, Seen, scaled};
 use crate::lamp::{Connection, Lamp};
-use crate::surface::{Lobes, Response, Surface};
 use crate::spectrum::{Metal, Source};
+use crate::surface::{Lobes, Response, Surface};
 
 /// Light on its way from lamps to the observer, before the surface's own spectra.
 struct Arriving<const N: usize> {
@@ -98,10 +98,8 @@ impl Lit<'_> {
     ) {
         let doppler = light.omega / light.connection.omega;
         let shift = self.effects.shift(doppler);
-        let factor = self.effects.gain(doppler, 3)
-            * light.connection.dilution
-            * light.cosine
-            * light.passage.clear;
+        let factor =
+            self.effects.gain(doppler, 3) * light.connection.dilution * light.cosine * light.passage.clear;
         let at_lamp = scaled(&seen.nm, shift);
         for (course, source) in &light.lamp.light {
             let factor = factor * course.at(light.connection.emitted);
@@ -157,7 +155,10 @@ impl<const N: usize> Arriving<N> {
             self.reflected = true;
             for (i, value) in light.iter().enumerate() {
                 self.tint[i] += factor * response.tint * value;
-                self.white[i] += factor * response.white * value * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
+                self.white[i] += factor
+                    * response.white
+                    * value
+                    * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
             }
         }
     }

@@ -11,11 +11,12 @@
 //! Fresnel's equations are those of media at rest with the face. Light is without polarisation after each face.
 
 use super::medium::{Inside, Light4, in_medium};
+use super::split::Parted;
 use super::{Gathered, Leg, Lit, Path, Seen, Step, scaled};
-use crate::world::Hit;
 use crate::fresnel;
 use crate::spacetime::{FourVector, Rest, SightRay};
 use crate::surface::{Glass, Lobes, Medium, Response, Surface};
+use crate::world::Hit;
 use glam::DVec3;
 
 /// Surfaces of bodies whose distance is below this part of their size touch.
@@ -171,11 +172,7 @@ impl Lit<'_> {
             part(nm) * if alone && at.part > 0.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 }
         };
         let step = Step { before: seen.path.steps, part: &part, shift };
-        let onward = |light: Light4| Leg {
-            ray: SightRay { event, k: light.step },
-            wave: light.wave,
-            inside,
-        };
+        let onward = |light: Light4| Leg { ray: SightRay { event, k: light.step }, wave: light.wave, inside };
         let path = seen.path.filtered(&parts(&part, even && tint.is_none()), &step);
         let path = Path { depth: path.depth - 1, way: seen.way, ..path };
         if path.is_faint(self.faintest) {
@@ -186,21 +183,28 @@ impl Lit<'_> {
                 self.gather(&onward(light), seen.lanes, &path, gathered);
             }
         } else {
-            self.split(seen.lanes, &path, gathered, &mut |lane, path, gathered| {
-                if let Some(light) = self.at_face(&face, seen, lane).refracted {
+            let refracted = |lane: f64| self.at_face(&face, seen, lane).refracted;
+            let rest = &seen.hit.rest.rest_from_lab;
+            let direction = |lane: f64| Some((*rest * refracted(lane)?.step).x.normalize());
+            let apart = |a: f64, b: f64| match (direction(a), direction(b)) {
+                // On its way out the light parts about as much again, and by the index more.
+                (Some(a), Some(b)) => {
+                    pixels(2.0 * glass.index.at(589.0) * (a - b).length() * seen.omega, seen)
+                }
+                _ => 0.0,
+            };
+            let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
+                if let Some(light) = refracted(lane) {
                     self.gather(&onward(light), &[lane], path, gathered);
                 }
-            });
+            };
+            let parted = Parted { wave: seen.leg.wave, apart: &apart, follow };
+            self.split(seen.lanes, &path, gathered, parted);
         }
     }
 
     /// A surface that lets nothing through and touches a face from beyond: it is seen as from within the medium.
-    fn meet_in_contact<const N: usize>(
-        &self,
-        hit: &Hit<'_>,
-        seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
-    ) {
+    fn meet_in_contact<const N: usize>(&self, hit: &Hit<'_>, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };
         let spot = hit.spot(&seen.leg.ray);
         let omega = (hit.rest.rest_from_lab * seen.leg.wave).t;
@@ -261,9 +265,8 @@ impl Lit<'_> {
         let on = |normal: DVec3| self.at_face_of(face, normal, seen, lane);
         let at = on(face.normal);
         let through = |at: &AtFace| {
-            at.refracted.is_none_or(|light| {
-                (seen.hit.rest.rest_from_lab * light.step).x.dot(face.facet_normal) > 0.0
-            })
+            at.refracted
+                .is_none_or(|light| (seen.hit.rest.rest_from_lab * light.step).x.dot(face.facet_normal) > 0.0)
         };
         // The interpolated normal would send the ray back out: the facet's own does not.
         if through(&at) { at } else { on(face.facet_normal) }
@@ -344,8 +347,7 @@ impl Lit<'_> {
         for _ in 0..8 {
             let index = medium.index.at(nm);
             let c = index * index - 1.0;
-            let (p, q, r) =
-                (c * b * b - 1.0, c * a * b, c * a * a + omega * omega - along.length_squared());
+            let (p, q, r) = (c * b * b - 1.0, c * a * b, c * a * a + omega * omega - along.length_squared());
             let root = positive_root(q * q - p * r)?;
             let solutions = [(q + root) / p, (q - root) / p].map(|normal_part| {
                 let at_face = FourVector::<Rest>::new(omega, along + normal * normal_part);
@@ -368,21 +370,22 @@ impl Lit<'_> {
     }
 
     /// A ray that is reflected within a medium, toward the face it came from.
-    pub(super) fn reflected_inside<const N: usize>(
-        &self,
-        normal: DVec3,
-        seen: &Seen<'_, N>,
-    ) -> Option<Leg> {
+    pub(super) fn reflected_inside<const N: usize>(&self, normal: DVec3, seen: &Seen<'_, N>) -> Option<Leg> {
         let leaving = seen.hit.rest.rest_from_lab * seen.leg.wave;
         let medium = self.medium(&seen.leg.inside);
         let arriving = |normal| self.wave(medium, leaving, normal, -1.0, seen, seen.lanes[0]);
-        let toward = |wave: &Wave| {
-            (seen.hit.rest.rest_from_lab * wave.light.step).x.dot(seen.spot.facet_normal) < 0.0
-        };
+        let toward =
+            |wave: &Wave| (seen.hit.rest.rest_from_lab * wave.light.step).x.dot(seen.spot.facet_normal) < 0.0;
         let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.spot.facet_normal))?;
         let ray = SightRay { event: seen.departure, k: wave.light.step };
         Some(Leg { ray, wave: wave.light.wave, inside: seen.leg.inside })
     }
+}
+
+/// How many pixels wide an angle is for the observer; 0 where pixels have no width.
+fn pixels<const N: usize>(angle: f64, seen: &Seen<'_, N>) -> f64 {
+    let pixel = 2.0 * seen.path.cone.pixel;
+    if pixel > 0.0 { angle / pixel } else { 0.0 }
 }
 
 fn positive_root(squared: f64) -> Option<f64> {

@@ -1,5 +1,6 @@
 //! Inside glass and water: which medium light is in, and what it does on the way.
 
+use super::split::Parted;
 use super::{Gathered, Leg, Lit, Path, Seen, Step};
 use crate::spacetime::{FourVector, Lab, Rest, SightRay};
 use crate::surface::{Medium, Surface};
@@ -111,9 +112,11 @@ impl Lit<'_> {
         let step = Step { before: path.steps, part: &part, shift: self.effects.shift(null.t) };
         if medium.index.disperses() && N > 1 {
             let path = Path { steps: Some(&step), ..*path };
-            self.split(lanes, &path, gathered, &mut |lane, path, gathered| {
+            let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
                 self.gather(&start(lane), &[lane], path, gathered);
-            });
+            };
+            let parted = Parted { wave: leg.wave, apart: &|_, _| 0.0, follow };
+            self.split(lanes, &path, gathered, parted);
         } else {
             let shift = step.shift;
             let parts = lanes.map(|lane| part(lane / shift));

@@ -16,10 +16,10 @@ mod passage;
 mod split;
 
 use crate::lamp::Lamp;
+use crate::scene::Sky;
 use crate::spacetime::{Doppler, Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
-use crate::scene::Sky;
 use crate::world::{Hit, Spot, World};
 use glam::DVec3;
 use medium::Inside;
@@ -69,6 +69,8 @@ pub struct Lit<'a> {
     pub surroundings: &'a [Sky],
     /// Whether any surface lets light through.
     pub see_through: bool,
+    /// Wavelengths of all spectral lines of the scene, nm, each in its source's rest frame.
+    pub lines: &'a [f64],
     /// What is shown.
     pub effects: Effects,
     /// How many mirrors and faces of glass one after another are followed.
@@ -376,7 +378,8 @@ impl Lit<'_> {
             let k: FourVector<Rest> = surroundings.rest_from_lab * self.escaped(leg);
             let shift = self.effects.shift(k.t);
             let cone = (path.cone.sample / k.t, path.cone.pixel / k.t);
-            let mut radiance = surroundings.sky.radiance(-k.x / k.x.length(), cone, &scaled(lanes, 1.0 / shift));
+            let mut radiance =
+                surroundings.sky.radiance(-k.x / k.x.length(), cone, &scaled(lanes, 1.0 / shift));
             let gain = self.effects.gain(k.t, -5);
             for value in &mut radiance {
                 *value *= gain;
@@ -391,8 +394,7 @@ impl Lit<'_> {
     /// Radiance that leaves the surface, as the observer gets it: `L(λ) = ω⁻⁵ L'(λ/ω)`.
     fn add<const N: usize>(&self, radiance: &[f64; N], seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
         let gain = self.effects.gain(seen.omega, -5);
-        for ((sum, value), part) in
-            gathered.light.radiance.iter_mut().zip(radiance).zip(seen.path.throughput)
+        for ((sum, value), part) in gathered.light.radiance.iter_mut().zip(radiance).zip(seen.path.throughput)
         {
             *sum += gain * value * part;
         }

@@ -1,12 +1,12 @@
 //! Where an index depends on the wavelength each wavelength goes its own way.
 //!
-//! The observer's wavelengths are followed one by one. Where two neighbours differ much (one meets a thing that the other
-//! misses), the edge between them is looked for, so that colours change continuously across a picture. Spectral lines
-//! are followed at their own wavelength, wherever between the samples that is.
+//! The observer's wavelengths are followed one by one, and others between them as many as it takes for neighbours to lie
+//! no more than a pixel apart, so that colours change continuously across a picture. Spectral lines are followed at
+//! their own wavelength, wherever between the samples that is.
 
 use super::{Gathered, Light, Lit, Path};
-use crate::color;
-use crate::color::LUMENS_PER_WATT;
+use crate::color::{self, LUMENS_PER_WATT};
+use crate::spacetime::FourVector;
 use crate::spectrum::{Line, Wavelengths};
 use glam::DVec3;
 
@@ -25,17 +25,22 @@ impl Caught {
     }
 }
 
-/// Neighbours that differ by more than this part of the larger are looked at more closely.
-const JUMP: f64 = 0.2;
-/// An edge is found to this part of the distance between neighbours: 2⁻⁵.
-const HALVINGS: u32 = 5;
 /// A line's wavelength has been found when it changes by less than this part.
 const FOUND: f64 = 1e-9;
 /// Steps in which it has to be found.
 const STEPS: u32 = 12;
+/// The most wavelengths between two neighbours.
+const MOST_BETWEEN: f64 = 31.0;
 
-/// Follows light of one wavelength.
-type Follow<'f> = dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>) + 'f;
+/// Light that is about to be parted.
+pub(super) struct Parted<'f> {
+    /// Its wave vector before.
+    pub(super) wave: FourVector,
+    /// How far, in pixels, neighbours of two wavelengths part: 0 where it is not known.
+    pub(super) apart: &'f dyn Fn(f64, f64) -> f64,
+    /// Follows one wavelength.
+    pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
+}
 
 impl Lit<'_> {
     /// Follows each wavelength by itself, and adds what is found to what is gathered.
@@ -44,25 +49,10 @@ impl Lit<'_> {
         lanes: &[f64; N],
         path: &Path<'_, N>,
         gathered: &mut Gathered<N>,
-        follow: &mut Follow<'_>,
+        parted: Parted<'_>,
     ) {
-        let mut single = |nm: f64| {
-            let throughput = [path.steps.map_or(1.0, |step| step.throughput(nm))];
-            let path = Path {
-                throughput,
-                steps: path.steps,
-                depth: path.depth,
-                veils: path.veils,
-                way: path.way,
-                cone: path.cone,
-            };
-            let light = Light { radiance: [0.0], lines: DVec3::ZERO };
-            let mut one = Gathered { light, caught: Some(Vec::new()) };
-            if throughput[0] > 0.0 {
-                follow(nm, &path, &mut one);
-            }
-            (one.light.radiance[0], one.caught.unwrap_or_default())
-        };
+        let Parted { wave, apart, follow } = parted;
+        let mut single = |nm: f64| one(nm, path, follow);
         let mut values = [0.0; N];
         let mut all = Vec::new();
         for (i, nm) in lanes.iter().enumerate() {
@@ -71,43 +61,67 @@ impl Lit<'_> {
             gathered.light.radiance[i] += value;
             all.extend(caught.into_iter().map(|caught| (*nm, caught)));
         }
-        let largest = values.iter().copied().fold(0.0, f64::max);
         for pair in 0..N.saturating_sub(1) {
             let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-            if (a.1 - b.1).abs() > JUMP * a.1.max(b.1) && (a.1 - b.1).abs() > 0.05 * largest {
-                gathered.light.lines += refine(a, b, largest, HALVINGS, &mut |nm| single(nm).0);
-            }
+            let between = apart(a.0, b.0).clamp(0.0, MOST_BETWEEN).floor() as u32;
+            gathered.light.lines += between_two(a, b, between, &mut |nm| single(nm).0);
+        }
+        if self.lines.is_empty() {
+            return;
+        }
+        for nm in self.expected(wave) {
+            all.extend(single(nm).1.into_iter().map(|caught| (nm, caught)));
         }
         for (nm, power) in lines(&all, &mut single) {
-            match &mut gathered.caught {
-                Some(_) => {}
-                None => gathered.light.lines += Wavelengths::<N>::line_xyz(nm, power),
-            }
+            gathered.light.lines += Wavelengths::<N>::line_xyz(nm, power);
         }
+    }
+
+    /// Where lines would be seen if light went straight on: at each line's wavelength in each rest frame.
+    fn expected(&self, wave: FourVector) -> Vec<f64> {
+        let shifts = self.world.frames.iter().map(|rest| self.effects.shift((rest.rest_from_lab * wave).t));
+        let mut all: Vec<f64> =
+            shifts.flat_map(|shift| self.lines.iter().map(move |nm| nm * shift)).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        all.dedup_by(|a, b| (*a - *b).abs() <= FOUND * *b);
+        all.retain(|nm| (color::SHORTEST_NM..=color::LONGEST_NM).contains(nm));
+        all
     }
 }
 
-/// What is missing of the XYZ between two neighbours when the radiance is taken as linear there.
-fn refine(
-    a: (f64, f64),
-    b: (f64, f64),
-    largest: f64,
-    halvings: u32,
-    at: &mut dyn FnMut(f64) -> f64,
-) -> DVec3 {
-    let middle = 0.5 * (a.0 + b.0);
-    let value = at(middle);
-    let error = value - 0.5 * (a.1 + b.1);
-    // A triangle of this height: its integral against the colour functions, by Simpson's rule on each side.
-    let half = 0.5 * (b.0 - a.0);
-    let quarter = |nm: f64| color::matching(nm) * 2.0;
-    let weight = (quarter(middle - 0.5 * half) + color::matching(middle) * 2.0 + quarter(middle + 0.5 * half)) * (half / 6.0);
-    let mut sum = weight * (error * LUMENS_PER_WATT);
-    if halvings > 1 && error.abs() > 0.02 * largest {
-        let m = (middle, value);
-        sum += refine(a, m, largest, halvings - 1, at) + refine(m, b, largest, halvings - 1, at);
+/// Radiance and lines of one wavelength.
+fn one<const N: usize>(
+    nm: f64,
+    path: &Path<'_, N>,
+    follow: &mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
+) -> (f64, Vec<Caught>) {
+    let throughput = [path.steps.map_or(1.0, |step| step.throughput(nm))];
+    let path = Path {
+        throughput,
+        steps: path.steps,
+        depth: path.depth,
+        veils: path.veils,
+        way: path.way,
+        cone: path.cone,
+    };
+    let light = Light { radiance: [0.0], lines: DVec3::ZERO };
+    let mut gathered = Gathered { light, caught: Some(Vec::new()) };
+    if throughput[0] > 0.0 {
+        follow(nm, &path, &mut gathered);
     }
-    sum
+    (gathered.light.radiance[0], gathered.caught.unwrap_or_default())
+}
+
+/// What the XYZ between two neighbours is beyond that of a radiance that is linear there, from some wavelengths between.
+fn between_two(a: (f64, f64), b: (f64, f64), count: u32, at: &mut dyn FnMut(f64) -> f64) -> DVec3 {
+    let step = (b.0 - a.0) / f64::from(count + 1);
+    let more = |i: u32| {
+        let share = f64::from(i) / f64::from(count + 1);
+        let nm = a.0 + (b.0 - a.0) * share;
+        let more = at(nm) - (a.1 + (b.1 - a.1) * share);
+        color::matching(nm) * (more * step * LUMENS_PER_WATT)
+    };
+    (1..=count).map(more).sum()
 }
 
 /// The lines met, each at the wavelength at which light of that wavelength meets it: (nm, power).
@@ -116,8 +130,7 @@ fn lines(all: &[(f64, Caught)], single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>
     for (start, first) in all {
         // Every ray of another wavelength that met it leads there; the nearest is the surest.
         let nearer = |(lane, other): &(f64, Caught)| {
-            other.of == first.of
-                && (other.wavelength_nm - lane).abs() < (first.wavelength_nm - start).abs()
+            other.of == first.of && (other.wavelength_nm - lane).abs() < (first.wavelength_nm - start).abs()
         };
         if all.iter().any(nearer) || found.iter().any(|(of, ..)| *of == first.of) {
             continue;
@@ -125,14 +138,12 @@ fn lines(all: &[(f64, Caught)], single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>
         let mut nm = first.wavelength_nm;
         for _ in 0..STEPS {
             let (_, caught) = single(nm);
-            let same = caught.iter().filter(|caught| caught.of == first.of);
-            let nearest = same.min_by(|a, b| (a.wavelength_nm - nm).abs().total_cmp(&(b.wavelength_nm - nm).abs()));
-            let Some(next) = nearest.copied() else { break };
-            if (next.wavelength_nm - nm).abs() <= FOUND * nm {
+            let off = |caught: &Caught| (caught.wavelength_nm - nm).abs();
+            let same = || caught.iter().filter(|caught| caught.of == first.of);
+            let Some(next) = same().min_by(|a, b| off(a).total_cmp(&off(b))) else { break };
+            if off(next) <= FOUND * nm {
                 // Several ways of the same light (mirror images within the glass) arrive together.
-                let together = caught.iter().filter(|caught| {
-                    caught.of == first.of && (caught.wavelength_nm - nm).abs() <= FOUND * nm
-                });
+                let together = same().filter(|caught| off(caught) <= FOUND * nm);
                 found.push((first.of, nm, together.map(|caught| caught.power).sum()));
                 break;
             }

@@ -1,7 +1,7 @@
 //! Where a sight ray meets a body, and what the surface is like there.
 
-use super::placed::{Form, Met, Placed};
 use super::RestFrame;
+use super::placed::{Form, Met, Placed};
 use crate::spacetime::{Event, FourVector, Rest, SightRay};
 use glam::{DVec2, DVec3};
 

@@ -7,8 +7,8 @@ mod hit;
 mod placed;
 
 pub use hit::{Hit, Spot};
-pub use placed::{Form, Placed};
 use placed::Met;
+pub use placed::{Form, Placed};
 
 use crate::spacetime::{Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Line, Tree};

@@ -1,8 +1,8 @@
 //! A mesh, or a solid, placed in the rest frame of a body.
 
+use crate::solid::{Crossing, Solid};
 use crate::spacetime::{Rest, SightRay};
 use crate::tree::{Bounds, Line};
-use crate::solid::{Crossing, Solid};
 use crate::triangles::{Meeting, Triangles};
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2};
 use std::sync::Arc;

@@ -6,8 +6,8 @@ use terrell::lamp::{Beam, Lamp};
 use terrell::observer::{Aim, Observer};
 use terrell::scene::{Placement, Scene, Sky, WorldBuilder};
 use terrell::spacetime::{Course, Event, Poincare, SightRay, Velocity, Worldline};
-use terrell::spectrum::Source;
 use terrell::spectrum::Index;
+use terrell::spectrum::Source;
 use terrell::surface::{Absorption, Glass, Medium, Scatter, Surface};
 use terrell::trace::Effects;
 use terrell::triangles::Triangles;
@@ -28,7 +28,14 @@ impl Body {
     /// At rest at the origin.
     pub(crate) fn new(mesh: &Arc<Triangles>, surface: Surface) -> Self {
         let placement = Placement { origin: Event::ORIGIN, velocity: Velocity::REST };
-        Self { mesh: mesh.clone(), placement, rest_from_mesh: DAffine3::IDENTITY, surface, index: Index::Constant(1.0), absorption: None }
+        Self {
+            mesh: mesh.clone(),
+            placement,
+            rest_from_mesh: DAffine3::IDENTITY,
+            surface,
+            index: Index::Constant(1.0),
+            absorption: None,
+        }
     }
 
     /// Filled with glass.
@@ -133,7 +140,14 @@ impl Stage {
     /// With bodies.
     pub(crate) fn of(bodies: impl IntoIterator<Item = Body>) -> Self {
         let bodies = bodies.into_iter().collect();
-        Self { bodies, lamps: Vec::new(), ambient: None, surroundings: Vec::new(), effects: Effects::ALL, depth: 8 }
+        Self {
+            bodies,
+            lamps: Vec::new(),
+            ambient: None,
+            surroundings: Vec::new(),
+            effects: Effects::ALL,
+            depth: 8,
+        }
     }
 
     /// With lamps.
@@ -156,11 +170,13 @@ impl Stage {
             media: self.media(),
             ambient: vec![self.ambient.clone().unwrap_or_default()],
             surroundings: self.surroundings.clone(),
+            lines: Vec::new(),
             effects: self.effects,
             depth: self.depth,
             faintest: 1e-9,
             observer: eye.observer(),
         }
+        .with_lines()
     }
 
     /// What fills bodies of glass: that of body number i is medium number i (others are not asked for theirs).

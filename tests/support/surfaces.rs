@@ -41,6 +41,7 @@ pub(crate) fn black() -> Surface {
 /// The surface of a body of clear glass; which glass is said by the body ([`super::Body::filled`]).
 pub(crate) fn glass() -> Surface {
     let (index, color) = (Index::Constant(1.0), None);
-    let glass = Glass { medium: 0, index, thin: false, color, amount: 1.0, amount_texture: None, roughness: 0.0 };
+    let glass =
+        Glass { medium: 0, index, thin: false, color, amount: 1.0, amount_texture: None, roughness: 0.0 };
     Surface::new(Scatter::Glass(Box::new(glass)))
 }
