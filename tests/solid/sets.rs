@@ -52,7 +52,8 @@ impl Set {
     }
 }
 
-fn inside(shape: Shape, p: DVec3) -> bool {
+/// Whether the point is in the open shape.
+pub(super) fn inside(shape: Shape, p: DVec3) -> bool {
     let radius = libm::hypot(p.x, p.z);
     match shape {
         Shape::Plane => p.y < 0.0,
