@@ -220,7 +220,7 @@ impl Solid {
             match boxes.get_mut(slot.gate as usize) {
                 None => whole = own,
                 Some(sum) if self.gates[slot.gate as usize].needs == 1 => {
-                    *sum = [sum[0].with(own), meet(sum[1], other)]
+                    *sum = [sum[0].with(own), meet(sum[1], other)];
                 }
                 Some(sum) => *sum = [meet(sum[0], own), sum[1].with(other)],
             }

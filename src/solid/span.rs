@@ -1,7 +1,7 @@
 //! Where a line is inside each shape, in the shape's own coordinates.
 //!
-//! Quadratics are solved from the line's point of closest approach: an origin far away then costs its own rounding
-//! only, not that of its square.
+//! Discriminants come from how the line passes (its closest approach, or its moment about the apex), not from
+//! differences of squares: an origin far away costs its own rounding only.
 
 use super::Shape;
 use super::surface::{BOTTOM, SIDE, TOP};
@@ -36,13 +36,6 @@ impl Span {
             enter: if other.enter.s > self.enter.s { other.enter } else { self.enter },
             exit: if other.exit.s < self.exit.s { other.exit } else { self.exit },
         }
-    }
-
-    #[inline]
-    fn moved(mut self, s: f64) -> Self {
-        self.enter.s += s;
-        self.exit.s += s;
-        self
     }
 }
 
@@ -86,15 +79,13 @@ fn cylinder(o: DVec3, d: DVec3) -> Option<Span> {
 }
 
 fn cone(o: DVec3, d: DVec3) -> Option<Span> {
-    let closest = -o.dot(d) / d.length_squared();
-    let o = o + d * closest;
     // From the apex down, where the cone is x² + z² <= y².
     let (p, d) = (DVec3::new(o.x, 0.5 - o.y, o.z), DVec3::new(d.x, -d.y, d.z));
     let depth = slab(p.y, d.y, [0.0, 1.0], [SIDE, BOTTOM])?;
     let form = |a: DVec3, b: DVec3| a.x * b.x + a.z * b.z - a.y * b.y;
     // a s² + 2 b s + c <= 0. A zero must be +0 to lead to the right infinity.
     let (a, b, c) = (form(d, d) + 0.0, form(p, d), form(p, p));
-    // b² - a c, by the identity that spares it that difference.
+    // b² - a c, by the identity that spares it that difference: it does not depend on how far away the origin is.
     let w = p.cross(d);
     let square = w.x * w.x + w.z * w.z - w.y * w.y;
     if a >= 0.0 && square <= 0.0 {
@@ -112,7 +103,7 @@ fn cone(o: DVec3, d: DVec3) -> Option<Span> {
     } else {
         Span::side(f64::NEG_INFINITY, first)
     };
-    Some(side.and(depth).moved(closest))
+    Some(side.and(depth))
 }
 
 impl Shape {

@@ -10,10 +10,10 @@ pub(super) const ALL: [Shape; 5] = [Shape::Plane, Shape::Sphere, Shape::Box, Sha
 /// A solid as sets define it, to compare with.
 pub(super) enum Set {
     Leaf(Shape, DAffine3),
-    Union(Vec<Set>),
-    Intersection(Vec<Set>),
-    Difference(Box<Set>, Vec<Set>),
-    Complement(Box<Set>),
+    Union(Vec<Self>),
+    Intersection(Vec<Self>),
+    Difference(Box<Self>, Vec<Self>),
+    Complement(Box<Self>),
 }
 
 impl Set {
@@ -52,7 +52,8 @@ impl Set {
     }
 }
 
-fn inside(shape: Shape, p: DVec3) -> bool {
+/// Whether the point is in the open shape.
+pub(super) fn inside(shape: Shape, p: DVec3) -> bool {
     let radius = libm::hypot(p.x, p.z);
     match shape {
         Shape::Plane => p.y < 0.0,
