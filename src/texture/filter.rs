@@ -1,7 +1,7 @@
 //! The mean of a texture over the ellipse that a sample of the picture stands for.
 
 use super::pyramid::{Pyramid, Stored, divided, linear, multiplied, square};
-use super::{Filter, Texture, mix};
+use super::{Encoding, Filter, SRGB_BYTES, Texels, Texture, mix, srgb_byte};
 use glam::DVec2;
 
 /// The ellipse of a surface that a sample stands for, in the mesh's texture coordinates: two conjugate half
@@ -54,7 +54,7 @@ impl Ellipse {
 }
 
 /// A row of taps along the major axis.
-struct Taps {
+pub(super) struct Taps {
     /// From one to the next, texels.
     step: DVec2,
     /// The weight of tap `i` is 1 - |i| / reach.
@@ -66,6 +66,9 @@ struct Taps {
 }
 
 impl Taps {
+    /// One tap in the picture itself.
+    pub(super) const POINT: Self = Self { step: DVec2::ZERO, reach: 1.0, level: 0, above: 0.0 };
+
     /// None if the ellipse is wider than the level of one texel, or no ellipse.
     ///
     /// A level whose texels are n of the picture's wide has the variance (n² - 1)/4 along both axes: (n² - 1)/12
@@ -119,9 +122,9 @@ impl Texture {
             return pyramid.mean();
         };
         let place = self.transform.transform_point2(uv);
-        let mut mean = self.tapped(pyramid, taps.level, place, &taps);
+        let mut mean = self.in_level(pyramid, taps.level, place, &taps);
         if taps.above > 0.0 {
-            mean = mix(mean, self.tapped(pyramid, taps.level + 1, place, &taps), taps.above);
+            mean = mix(mean, self.in_level(pyramid, taps.level + 1, place, &taps), taps.above);
         }
         if pyramid.premultiplied() {
             mean = divided(mean);
@@ -133,16 +136,23 @@ impl Texture {
         mean
     }
 
-    /// The mean of the taps in one level; colours may be multiplied by alpha.
-    fn tapped(&self, pyramid: &Pyramid, level: usize, place: DVec2, taps: &Taps) -> [f32; 4] {
+    /// The mean of the taps in the picture itself, with colours multiplied by alpha if asked for.
+    pub(super) fn in_picture(&self, place: DVec2, taps: &Taps, premultiplied: bool) -> [f32; 4] {
         let picture = &*self.picture;
+        let size = [picture.width, picture.height];
+        let weighed = |texel: [f32; 4]| if premultiplied { multiplied(texel) } else { texel };
+        // The common case once more: the choice of the decoding is taken out of the loops.
+        if let (Texels::Byte(v), Encoding::Srgb) = (&picture.texels, picture.encoding) {
+            let (table, width) = (&*SRGB_BYTES, size[0] as usize);
+            return self.sum(size, place, taps, |c, r| weighed(srgb_byte(table, v[r * width + c])));
+        }
+        self.sum(size, place, taps, |column, row| weighed(picture.texel(column, row)))
+    }
+
+    /// The mean of the taps in one level, with colours multiplied by alpha if the pyramid's are.
+    fn in_level(&self, pyramid: &Pyramid, level: usize, place: DVec2, taps: &Taps) -> [f32; 4] {
         if level == 0 {
-            let size = [picture.width, picture.height];
-            return if pyramid.premultiplied() {
-                self.sum(size, place, taps, |column, row| multiplied(picture.texel(column, row)))
-            } else {
-                self.sum(size, place, taps, |column, row| picture.texel(column, row))
-            };
+            return self.in_picture(place, taps, pyramid.premultiplied());
         }
         let level = pyramid.level(level);
         let number = |column, row| row * level.size[0] as usize + column;

@@ -13,6 +13,7 @@ use std::fmt;
 use std::sync::{Arc, LazyLock};
 
 pub use filter::Footprint;
+use filter::Taps;
 pub use pyramid::Pyramid;
 
 /// How stored numbers become linear ones.
@@ -109,6 +110,13 @@ static SRGB_BYTES: LazyLock<[f32; 256]> =
 static SRGB_WORDS: LazyLock<Vec<f32>> =
     LazyLock::new(|| (0..=u16::MAX).map(|i| linear_from_srgb(f32::from(i) / 65535.0)).collect());
 
+/// The linear value of a texel of 8-bit sRGB, by the table of all of them.
+#[inline]
+fn srgb_byte(table: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
+    let value = |c: u8| table[usize::from(c)];
+    [value(r), value(g), value(b), f32::from(a) / 255.0]
+}
+
 impl Picture {
     /// A picture of `width * height` texels, row by row from the top.
     pub fn new(width: u32, height: u32, texels: Texels, encoding: Encoding) -> Self {
@@ -126,11 +134,11 @@ impl Picture {
         let srgb = self.encoding == Encoding::Srgb;
         match &self.texels {
             Texels::Byte(v) => {
-                let [r, g, b, a] = v[at];
-                let value = |c: u8| {
-                    if srgb { SRGB_BYTES[usize::from(c)] } else { f32::from(c) / 255.0 }
-                };
-                [value(r), value(g), value(b), f32::from(a) / 255.0]
+                if srgb {
+                    srgb_byte(&SRGB_BYTES, v[at])
+                } else {
+                    v[at].map(|c| f32::from(c) / 255.0)
+                }
             }
             Texels::Word(v) => {
                 let [r, g, b, a] = v[at];
@@ -148,10 +156,11 @@ impl Wrap {
     /// A texture coordinate brought near to the picture, so that texel numbers stay small and exact.
     fn coordinate(self, u: f64) -> f64 {
         match self {
-            _ if !u.is_finite() => 0.0,
-            Self::Repeat => u - u.floor(),
-            Self::Mirror => u - 2.0 * (u / 2.0).floor(),
-            Self::Clamp => u.clamp(0.0, 1.0),
+            Self::Clamp if u.is_finite() => u.clamp(0.0, 1.0),
+            // Not finite, or so large that all numbers are even.
+            _ if !(u.abs() < 9_007_199_254_740_992.0) => 0.0,
+            Self::Mirror => u - 2.0 * floor(u / 2.0),
+            _ => u - floor(u),
         }
     }
 
@@ -197,7 +206,7 @@ impl Texture {
             });
             return picture.texel(column, row);
         }
-        self.bilinear(uv, size, |column, row| picture.texel(column, row))
+        self.in_picture(uv, &Taps::POINT, false)
     }
 
     /// The value at a pair of the picture's coordinates in a grid of texels of its own or another size.

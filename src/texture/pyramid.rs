@@ -279,3 +279,55 @@ fn give(levels: &mut [Halving], row: &[DVec4]) {
         give(above, &first.finished);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::{Filter, Footprint, Texture, Wrap};
+    use glam::{DAffine2, DVec2};
+    use std::sync::Arc;
+
+    #[test]
+    fn each_level_has_half_the_size_rounded_up_and_the_mean_of_the_picture() {
+        let texels: Vec<[f32; 4]> = (0..21 * 6).map(|i| [(i * i % 37) as f32, i as f32, 1.0, 1.0]).collect();
+        let mean = |v: &[[f32; 4]]| v.iter().map(|t| f64::from(t[0])).sum::<f64>() / v.len() as f64;
+        let expected = mean(&texels);
+        let pyramid = Pyramid::new(&Picture::new(21, 6, Texels::Float(texels), Encoding::Linear));
+        let sizes: Vec<_> = pyramid.levels.iter().map(|level| level.size).collect();
+        assert_eq!(sizes, [[11, 3], [6, 2], [3, 1], [2, 1], [1, 1]]);
+        for level in &pyramid.levels {
+            let Stored::Float(v) = &level.texels else { panic!("{level:?}") };
+            assert_eq!(v.len(), (level.size[0] * level.size[1]) as usize);
+            assert!((mean(v) - expected).abs() < 1e-5, "{level:?}");
+        }
+    }
+
+    #[test]
+    fn texels_of_an_odd_row_are_shared_by_area() {
+        let texels = [3.0, 6.0, 9.0].map(|c| [c; 4]).to_vec();
+        let pyramid = Pyramid::new(&Picture::new(3, 1, Texels::Float(texels), Encoding::Linear));
+        let Stored::Float(v) = &pyramid.level(1).texels else { panic!("{pyramid:?}") };
+        // One texel and half of the next, over one and a half.
+        assert!((v[0][0] - 4.0).abs() < 1e-6 && (v[1][0] - 8.0).abs() < 1e-6, "{v:?}");
+    }
+
+    #[test]
+    fn levels_are_made_when_a_look_up_asks_for_them_and_not_copied() {
+        let picture = Picture::new(2, 1, Texels::Byte(vec![[0; 4], [255; 4]]), Encoding::Srgb);
+        let texture = Texture {
+            picture: Arc::new(picture),
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Linear,
+            uv_set: 0,
+            transform: DAffine2::IDENTITY,
+        };
+        let made = |picture: &Picture| picture.pyramid.0.get().is_some();
+        let over =
+            |size: f64| texture.over(DVec2::ZERO, &Footprint { u: DVec2::X * size, v: DVec2::Y * size });
+        over(0.1);
+        assert!(!made(&texture.picture));
+        over(1.0);
+        assert!(made(&texture.picture));
+        assert!(!made(&Picture::clone(&texture.picture)));
+    }
+}

@@ -114,37 +114,52 @@ fn sample_that_sees_everything_gets_the_mean_of_the_linear_values() {
     }
 }
 
+/// A picture all of one texel, in every kind of storage, with the coarseness of its levels: half a step of 16 bits,
+/// and of 16 bits of a square root.
+fn plain(width: u32, height: u32, texel: [u8; 4]) -> [(Texture, f32); 5] {
+    let count = (width * height) as usize;
+    let bytes = Texels::Byte(vec![texel; count]);
+    let words = Texels::Word(vec![texel.map(|c| u16::from(c) * 257); count]);
+    let floats = Texels::Float(vec![texel.map(|c| f32::from(c) / 255.0); count]);
+    [
+        (floats, Encoding::Linear, 0.0),
+        (words.clone(), Encoding::Linear, 0.5 / 65535.0),
+        (bytes.clone(), Encoding::Linear, 0.5 / 65535.0),
+        (words, Encoding::Srgb, 1.0 / 65535.0),
+        (bytes, Encoding::Srgb, 1.0 / 65535.0),
+    ]
+    .map(|(texels, encoding, coarse)| (texture(width, height, texels, encoding), coarse + 1e-6))
+}
+
 #[test]
 fn one_colour_stays_that_colour_over_every_footprint() {
     let mut dice = Dice(3);
-    for (stored, alpha) in [(0_u8, 255_u8), (1, 255), (255, 255), (188, 255), (188, 128), (77, 1), (9, 0)] {
-        let texel = [stored, 255, stored, alpha];
-        let word = texel.map(|c| u16::from(c) * 257);
-        let float = texel.map(|c| f32::from(c) / 255.0);
-        for (width, height) in [(16, 16), (13, 29)] {
-            let count = (width * height) as usize;
-            for (texels, encoding, tolerance) in [
-                (Texels::Float(vec![float; count]), Encoding::Linear, 1e-6),
-                (Texels::Word(vec![word; count]), Encoding::Linear, 0.5 / 65535.0),
-                (Texels::Byte(vec![texel; count]), Encoding::Linear, 0.5 / 65535.0),
-                // Square roots in steps of 1/65535, of colour and of alpha.
-                (Texels::Byte(vec![texel; count]), Encoding::Srgb, 1.0 / 65535.0),
-                (Texels::Word(vec![word; count]), Encoding::Srgb, 1.0 / 65535.0),
-            ] {
-                let data = encoding == Encoding::Linear && !matches!(texels, Texels::Float(_));
-                let texture = texture(width, height, texels, encoding);
-                for _ in 0..50 {
-                    let (uv, seen) = (place(&mut dice), footprint(&mut dice, 2.0));
-                    let (got, expected) = (texture.over(uv, &seen), texture.rgba(uv));
-                    assert!((got[3] - expected[3]).abs() <= tolerance + 1e-6);
-                    // Half a step of what little alpha there is, twice.
-                    let share = if data { 1.0 } else { f32::from(alpha) / 255.0 };
-                    let fades = if share > 0.0 { 2.0 * tolerance / share.sqrt() } else { 1.0 };
-                    let off = apart(got, expected);
-                    assert!(off <= if data || alpha == 255 { tolerance } else { fades } + 1e-6, "{off}");
-                }
+    for stored in [0, 1, 9, 77, 188, 255] {
+        let pictures = [plain(16, 16, [stored, 255, stored, 255]), plain(13, 29, [stored, 255, stored, 255])];
+        for (texture, coarse) in pictures.as_flattened() {
+            for _ in 0..50 {
+                let (uv, seen) = (place(&mut dice), footprint(&mut dice, 2.0));
+                assert!(apart(texture.over(uv, &seen), texture.rgba(uv)) <= *coarse);
             }
         }
+    }
+}
+
+#[test]
+fn one_colour_half_or_hardly_there_stays_that_colour() {
+    let mut dice = Dice(13);
+    for alpha in [128, 20, 1] {
+        for (texture, coarse) in plain(13, 29, [188, 255, 9, alpha]) {
+            // Both the colour, multiplied by alpha, and alpha are so coarse.
+            let coarse = 2.0 * coarse / (f32::from(alpha) / 255.0).sqrt();
+            for _ in 0..50 {
+                let (uv, seen) = (place(&mut dice), footprint(&mut dice, 2.0));
+                assert!(apart(texture.over(uv, &seen), texture.rgba(uv)) <= coarse);
+            }
+        }
+    }
+    for (texture, _) in plain(13, 29, [188, 255, 9, 0]) {
+        assert_eq!(texture.over(DVec2::ZERO, &round(0.5))[3], 0.0);
     }
 }
 
