@@ -104,8 +104,10 @@ impl View {
     }
 
     /// How wide the sight ray of a place is, of `samples` in each pixel: half the distance between neighbours.
+    #[inline]
     pub fn cone(&self, pixel: DVec2, ray: &SightRay, samples: u32) -> Cone {
-        let cosine = -self.direction(pixel).z;
+        let from_centre = (pixel - 0.5 * self.size) * (2.0 * self.half_width / self.size.x);
+        let cosine = 1.0 / (1.0 + from_centre.length_squared()).sqrt();
         // A pixel's solid angle is its area on the plane at distance 1, times cos³.
         let pixel = self.half_width / self.size.x * cosine * cosine.sqrt();
         // With aberration switched off the angle is seen by those beside whom the light has another frequency.

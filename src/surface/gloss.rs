@@ -141,6 +141,7 @@ impl<'s> Lobes<'s> {
     }
 
     /// What scatters light of lamps at a place; none for what does not.
+    #[inline]
     pub(crate) fn of(surface: &'s Surface, look: &Look<'_>) -> Option<Self> {
         let plain = || Self::plain(look.normal(surface.relief.as_ref()));
         match &surface.scatter {

@@ -8,15 +8,18 @@ use crate::surface::{Lobes, Response, Surface};
 /// Light on its way from lamps to the observer, before the surface's own spectra.
 struct Arriving<const N: usize> {
     base: [f64; N],
+    // What is reflected, and what of it takes the colour of the tint.
+    reflected: Option<Reflected<N>>,
+}
+
+struct Reflected<const N: usize> {
     tint: [f64; N],
     white: [f64; N],
-    // Whether there is anything in tint and white.
-    reflected: bool,
 }
 
 impl Lit<'_> {
     /// Light of the lamps, and of the fill light, that a surface throws back.
-    pub(super) fn add_lamps<const N: usize>(
+    pub(super) fn add_diffuse<const N: usize>(
         &self,
         surface: &Surface,
         seen: &Seen<'_, N>,
@@ -36,7 +39,7 @@ impl Lit<'_> {
         seen: &Seen<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        let mut arriving = Arriving { base: [0.0; N], tint: [0.0; N], white: [0.0; N], reflected: false };
+        let mut arriving = Arriving { base: [0.0; N], reflected: None };
         if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
             self.add_fill(ambient, lobes, &fill, seen, &mut arriving, gathered);
         }
@@ -61,10 +64,10 @@ impl Lit<'_> {
         for (value, part) in radiance.iter_mut().zip(base) {
             *value *= part;
         }
-        if arriving.reflected {
+        if let Some(reflected) = &arriving.reflected {
             let tint = lobes.tint.as_ref().map_or([0.0; N], |tint| tint.at_each(&seen.nm));
             for (i, value) in radiance.iter_mut().enumerate() {
-                *value += arriving.tint[i] * tint[i] + arriving.white[i];
+                *value += reflected.tint[i] * tint[i] + reflected.white[i];
             }
         }
         self.add(&radiance, seen, gathered);
@@ -152,13 +155,12 @@ impl<const N: usize> Arriving<N> {
             *sum += base * value;
         }
         if response.tint > 0.0 || response.white > 0.0 {
-            self.reflected = true;
+            let sums = self.reflected.get_or_insert(Reflected { tint: [0.0; N], white: [0.0; N] });
+            let (tint, white) = (factor * response.tint, factor * response.white);
             for (i, value) in light.iter().enumerate() {
-                self.tint[i] += factor * response.tint * value;
-                self.white[i] += factor
-                    * response.white
-                    * value
-                    * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
+                sums.tint[i] += tint * value;
+                sums.white[i] +=
+                    white * value * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
             }
         }
     }

@@ -330,7 +330,7 @@ impl Lit<'_> {
         }
         match &surface.scatter {
             Scatter::Absorb => {}
-            Scatter::Diffuse(_) => self.add_lamps(surface, seen, gathered),
+            Scatter::Diffuse(_) => self.add_diffuse(surface, seen, gathered),
             Scatter::Gloss(_) | Scatter::Metal(_) => self.add_gloss(surface, seen, gathered),
             Scatter::Mirror(paint) => self.follow_mirror(paint, surface, seen, gathered),
             Scatter::Glass(glass) => self.add_glass(glass, surface, seen, gathered),
