@@ -4,7 +4,7 @@ use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::scene::Scene;
 use crate::spectrum::Wavelengths;
-use crate::trace::First;
+use crate::trace::{Cone, First};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -40,15 +40,18 @@ fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) 
     let lit = scene.lit();
     let wavelengths = Wavelengths::<N>::new();
     let offsets = sampling.reconstruction.offsets(sampling.samples);
+    let phases: Vec<f64> =
+        (0..sampling.samples).map(|i| (f64::from(i) + 0.5) / f64::from(sampling.samples)).collect();
     let share = 1.0 / f64::from(sampling.samples);
     let expose_pixel = |column: usize, row: usize| {
         let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
-        for offset in &offsets {
+        for (offset, phase) in offsets.iter().zip(&phases) {
             let place = centre + *offset;
             let ray = view.ray(place);
-            let light = lit.seen_within(&ray, view.cone(place, &ray, sampling.samples), &wavelengths);
+            let cone = Cone { phase: *phase, ..view.cone(place, &ray, sampling.samples) };
+            let light = lit.seen_within(&ray, cone, &wavelengths);
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
                 *sum += value;
             }

@@ -112,7 +112,7 @@ impl View {
         let pixel = self.half_width / self.size.x * cosine * cosine.sqrt();
         // With aberration switched off the angle is seen by those beside whom the light has another frequency.
         let pixel = self.seer.map_or(pixel, |_| pixel / ray.k.dot(self.tetrad.velocity()));
-        Cone { sample: pixel / f64::from(samples).sqrt(), pixel }
+        Cone { sample: pixel / f64::from(samples).sqrt(), pixel, phase: 0.0 }
     }
 
     /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.

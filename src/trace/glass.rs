@@ -12,7 +12,7 @@
 
 use super::medium::{Inside, Light4, in_medium};
 use super::split::Parted;
-use super::{Gathered, Leg, Lit, Path, Seen, Step, scaled};
+use super::{Cone, Gathered, Leg, Lit, Path, Seen, Step, scaled};
 use crate::fresnel;
 use crate::spacetime::{FourVector, Rest, SightRay};
 use crate::surface::{Glass, Lobes, Medium, Response, Surface};
@@ -35,12 +35,18 @@ struct Face<'m> {
 }
 
 /// Light of one wavelength at a face.
+#[derive(Clone, Copy)]
 struct AtFace {
     reflectance: f64,
     // What arrives from beyond, unless all is reflected.
     refracted: Option<Light4>,
     // What is seen of its radiance: (1 - R)(n/n')².
     part: f64,
+}
+
+/// Light of the observer's wavelengths at a face.
+struct Lanes<const N: usize> {
+    all: [AtFace; N],
 }
 
 /// One solution of the dispersion relation.
@@ -147,60 +153,46 @@ impl Lit<'_> {
         }
         let look = seen.look();
         let face = self.face(&inside, look.normal(surface.relief.as_ref()), seen);
-        let shift = seen.shift;
-        let reflectance = |nm: f64| self.at_face(&face, seen, nm * shift).reflectance;
-        let tint = glass.color.as_ref().map(|color| color.at(&look));
-        let part = |nm: f64| {
-            let color = tint.as_ref().map_or(1.0, |tint| tint.at(nm).max(0.0).sqrt());
-            amount * color * self.at_face(&face, seen, nm * shift).part
-        };
-        let parts = |of: &dyn Fn(f64) -> f64, even: bool| {
-            if even { [of(seen.nm[0]); N] } else { seen.nm.map(of) }
-        };
         let disperses = |medium: Option<&Medium>| medium.is_some_and(|medium| medium.index.disperses());
         let even = !disperses(face.near) && !disperses(face.far);
+        let lanes = Lanes::at(even, seen, |lane| self.at_face(&face, seen, lane));
 
+        let shift = seen.shift;
+        let reflectance = |nm: f64| self.at_face(&face, seen, nm * shift).reflectance;
         let step = Step { before: seen.path.steps, part: &reflectance, shift };
-        let reflected = seen.path.filtered(&parts(&reflectance, even), &step);
+        let reflected = seen.path.filtered(&lanes.each(|_, at| at.reflectance), &step);
         let alone = reflected.is_faint(self.faintest);
         if !alone {
             self.reflect(face.normal, &reflected, seen, gathered);
         }
-        // What is not followed goes where the rest goes.
-        let part = |nm: f64| {
-            let at = self.at_face(&face, seen, nm * shift);
-            part(nm) * if alone && at.part > 0.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 }
+        let tint = glass.color.as_ref().map(|color| color.at(&look));
+        let part_of = |nm: f64, at: &AtFace| {
+            let color = tint.as_ref().map_or(1.0, |tint| tint.at(nm).max(0.0).sqrt());
+            // What is not followed goes where the rest goes.
+            let rest = if alone && at.part > 0.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 };
+            amount * color * at.part * rest
         };
+        let part = |nm: f64| part_of(nm, &self.at_face(&face, seen, nm * shift));
         let step = Step { before: seen.path.steps, part: &part, shift };
-        let onward = |light: Light4| Leg { ray: SightRay { event, k: light.step }, wave: light.wave, inside };
-        let path = seen.path.filtered(&parts(&part, even && tint.is_none()), &step);
+        let path = seen.path.filtered(&lanes.each(|i, at| part_of(seen.nm[i], at)), &step);
         let path = Path { depth: path.depth - 1, way: seen.way, ..path };
         if path.is_faint(self.faintest) {
             return;
         }
+        let onward = |light: Light4| Leg { ray: SightRay { event, k: light.step }, wave: light.wave, inside };
         if even || N == 1 {
-            if let Some(light) = self.at_face(&face, seen, seen.lanes[0]).refracted {
+            if let Some(light) = lanes.all[0].refracted {
                 self.gather(&onward(light), seen.lanes, &path, gathered);
             }
-        } else {
-            let refracted = |lane: f64| self.at_face(&face, seen, lane).refracted;
-            let rest = &seen.hit.rest.rest_from_lab;
-            let direction = |lane: f64| Some((*rest * refracted(lane)?.step).x.normalize());
-            let apart = |a: f64, b: f64| match (direction(a), direction(b)) {
-                // On its way out the light parts about as much again, and by the index more.
-                (Some(a), Some(b)) => {
-                    pixels(2.0 * glass.index.at(589.0) * (a - b).length() * seen.omega, seen)
-                }
-                _ => 0.0,
-            };
-            let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
-                if let Some(light) = refracted(lane) {
-                    self.gather(&onward(light), &[lane], path, gathered);
-                }
-            };
-            let parted = Parted { wave: seen.leg.wave, apart: &apart, follow };
-            self.split(seen.lanes, &path, gathered, parted);
+            return;
         }
+        let apart = lanes.apart(glass.index.at(589.0), seen);
+        let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
+            if let Some(light) = self.at_face(&face, seen, lane).refracted {
+                self.gather(&onward(light), &[lane], path, gathered);
+            }
+        };
+        self.split(seen.lanes, &path, gathered, Parted { wave: seen.leg.wave, apart: &apart, follow });
     }
 
     /// A surface that lets nothing through and touches a face from beyond: it is seen as from within the medium.
@@ -382,10 +374,32 @@ impl Lit<'_> {
     }
 }
 
-/// How many pixels wide an angle is for the observer; 0 where pixels have no width.
+impl<const N: usize> Lanes<N> {
+    fn at(even: bool, seen: &Seen<'_, N>, of: impl Fn(f64) -> AtFace) -> Self {
+        Self { all: if even { [of(seen.lanes[0]); N] } else { seen.lanes.map(of) } }
+    }
+
+    fn each(&self, of: impl Fn(usize, &AtFace) -> f64) -> [f64; N] {
+        std::array::from_fn(|i| of(i, &self.all[i]))
+    }
+
+    /// How far neighbours part, in pixels. On its way out the light parts about as much again, and by the index more.
+    fn apart(&self, index: f64, seen: &Seen<'_, N>) -> [f64; N] {
+        let rest = seen.hit.rest.rest_from_lab;
+        let directions =
+            self.all.map(|at| at.refracted.map(|light| (rest * light.step).x.normalize_or(DVec3::Z)));
+        std::array::from_fn(|i| match (directions[i], directions.get(i + 1).copied().flatten()) {
+            (Some(a), Some(b)) => pixels(2.0 * index * (a - b).length() * seen.omega, seen),
+            _ => 0.0,
+        })
+    }
+}
+
+/// How many pixels wide an angle is for the observer, over the number of samples: other samples of a pixel take other
+/// wavelengths. 0 where pixels have no width.
 fn pixels<const N: usize>(angle: f64, seen: &Seen<'_, N>) -> f64 {
-    let pixel = 2.0 * seen.path.cone.pixel;
-    if pixel > 0.0 { angle / pixel } else { 0.0 }
+    let Cone { sample, pixel, .. } = seen.path.cone;
+    if pixel > 0.0 { angle * sample * sample / (2.0 * pixel * pixel * pixel) } else { 0.0 }
 }
 
 fn positive_root(squared: f64) -> Option<f64> {

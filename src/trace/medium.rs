@@ -115,7 +115,7 @@ impl Lit<'_> {
             let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
                 self.gather(&start(lane), &[lane], path, gathered);
             };
-            let parted = Parted { wave: leg.wave, apart: &|_, _| 0.0, follow };
+            let parted = Parted { wave: leg.wave, apart: &[], follow };
             self.split(lanes, &path, gathered, parted);
         } else {
             let shift = step.shift;

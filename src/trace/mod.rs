@@ -107,6 +107,8 @@ pub struct Cone {
     pub sample: f64,
     /// The same between pixels: points of light are spread as wide.
     pub pixel: f64,
+    /// Which of the pixel's samples it is, from 0 to 1: where colours are parted each takes other wavelengths.
+    pub phase: f64,
 }
 
 /// The most surfaces with holes that are looked through one after another.

@@ -36,8 +36,8 @@ const MOST_BETWEEN: f64 = 31.0;
 pub(super) struct Parted<'f> {
     /// Its wave vector before.
     pub(super) wave: FourVector,
-    /// How far, in pixels, neighbours of two wavelengths part: 0 where it is not known.
-    pub(super) apart: &'f dyn Fn(f64, f64) -> f64,
+    /// How far each wavelength and the next part, in pixels over samples; 0 where it is not known.
+    pub(super) apart: &'f [f64],
     /// Follows one wavelength.
     pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
 }
@@ -63,8 +63,8 @@ impl Lit<'_> {
         }
         for pair in 0..N.saturating_sub(1) {
             let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-            let between = apart(a.0, b.0).clamp(0.0, MOST_BETWEEN).floor() as u32;
-            gathered.light.lines += between_two(a, b, between, &mut |nm| single(nm).0);
+            let between = apart.get(pair).map_or(0.0, |apart| apart.round().min(MOST_BETWEEN)) as u32;
+            gathered.light.lines += between_two(a, b, (between, path.cone.phase), &mut |nm| single(nm).0);
         }
         if self.lines.is_empty() {
             return;
@@ -113,15 +113,20 @@ fn one<const N: usize>(
 }
 
 /// What the XYZ between two neighbours is beyond that of a radiance that is linear there, from some wavelengths between.
-fn between_two(a: (f64, f64), b: (f64, f64), count: u32, at: &mut dyn FnMut(f64) -> f64) -> DVec3 {
-    let step = (b.0 - a.0) / f64::from(count + 1);
+fn between_two(
+    a: (f64, f64),
+    b: (f64, f64),
+    (count, phase): (u32, f64),
+    at: &mut dyn FnMut(f64) -> f64,
+) -> DVec3 {
+    let step = (b.0 - a.0) / f64::from(count.max(1));
     let more = |i: u32| {
-        let share = f64::from(i) / f64::from(count + 1);
+        let share = (f64::from(i) + phase) / f64::from(count);
         let nm = a.0 + (b.0 - a.0) * share;
         let more = at(nm) - (a.1 + (b.1 - a.1) * share);
         color::matching(nm) * (more * step * LUMENS_PER_WATT)
     };
-    (1..=count).map(more).sum()
+    (0..count).map(more).sum()
 }
 
 /// The lines met, each at the wavelength at which light of that wavelength meets it: (nm, power).
