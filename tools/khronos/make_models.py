@@ -244,7 +244,7 @@ def clearcoat():
 def unlit():
     """A square that shows its colour in any light and in none."""
     m = Model()
-    m.node("Sign", m.mesh(quad()), m.material("Sign", (0.5, 0.25, 1), extensions={"KHR_materials_unlit": {}}))
+    m.node("Sign", m.mesh(quad()), m.material("Sign", (0.5, 0.25, 1), extensions={"KHR_materials_unlit": {}}, doubleSided=True))
     return m
 
 
