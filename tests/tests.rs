@@ -14,6 +14,7 @@ mod furnace;
 mod glass;
 mod import;
 mod index;
+mod khronos;
 mod lamp;
 mod manifest;
 mod mirror;

@@ -28,7 +28,11 @@ class Peer:
         self.folder = tempfile.mkdtemp()
         self.bodies = []
         scene = {"type": "scene"}
+        if "surroundings" in manifest.written:
+            raise SystemExit("surroundings are not understood here")
         for number, body in enumerate(manifest.bodies):
+            if isinstance(body.file, dict) or (body.material is not None and body.reflectance is None):
+                raise SystemExit(f"body {body.name}: only model files, and `material: {{ diffuse: NUMBER }}`, are understood here (see materials.py)")
             for k, primitive in enumerate(File(body.file).primitives(body.node)):
                 scene[f"shape{number}_{k}"] = self._mesh(body, primitive)
                 self.bodies.append(body.name)

@@ -1,7 +1,8 @@
-"""Meshes and diffuse materials of a .glb as Blender writes it, for compare.py.
+"""Meshes and materials of a .glb, for compare.py (diffuse ones as Blender writes them) and materials.py.
 
 Written apart from terrell's importer, so that a fault in either shows. Refuses what it does not know: Draco, sparse accessors, skins, non-diffuse materials.
 """
+import io
 import json
 import struct
 
@@ -83,6 +84,21 @@ class File:
             start = view.get("byteOffset", 0)
             picture = self.blob[start : start + view["byteLength"]]
         return Material(m.get("name", f"material {index}"), np.array(pbr.get("baseColorFactor", [1, 1, 1, 1])[:3]), picture)
+
+
+class Glb(File):
+    """A .glb whose materials are handed on as they are written."""
+
+    def _material(self, index):
+        return self.json["materials"][index]
+
+    def texels(self, info):
+        """A texture's RGBA, 0 to 255, rows from the top."""
+        from PIL import Image
+        image = self.json["images"][self.json["textures"][info["index"]]["source"]]
+        view = self.json["bufferViews"][image["bufferView"]]
+        start = view.get("byteOffset", 0)
+        return np.array(Image.open(io.BytesIO(self.blob[start : start + view["byteLength"]])).convert("RGBA"))
 
 
 def local_matrix(node):

@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 KEYS = {
-    "manifest": {"assets", "bodies", "lights", "observer", "picture", "output"},
+    "manifest": {"assets", "bodies", "lights", "observer", "picture", "output", "surroundings"},
     "body": {"asset", "name", "at", "rotation", "scale", "material"},
     "light": {"lamp", "spot", "sun", "at"},
     "observer": {"at", "look_at", "direction", "field_of_view", "up"},
@@ -30,6 +30,8 @@ class Manifest:
 
     def _asset(self, written):
         written = {"file": written} if isinstance(written, str) else written
+        if "file" not in written:
+            return written, None
         return os.path.join(self.folder, written["file"]), written.get("node")
 
     def exr(self):
@@ -41,7 +43,7 @@ class Manifest:
 
 
 class Body:
-    """A copy of an asset: file, node, matrix, and a flat reflectance if it has one of its own."""
+    """A copy of an asset: file, node, matrix; the material of its own as written, and its reflectance if that is one number."""
 
     def __init__(self, written, assets):
         known(written, "body")
@@ -51,12 +53,9 @@ class Body:
         m[:3, :3] = rotation(written.get("rotation")) * np.broadcast_to(numbers(written.get("scale", 1)), 3)
         m[:3, 3] = quantity(written.get("at", "0 0 0 m"), "m")
         self.matrix = m
-        self.reflectance = None
-        if "material" in written:
-            (kind, value), = written["material"].items()
-            if kind != "diffuse" or not isinstance(value, (int, float)):
-                raise SystemExit(f"body {self.name}: only `material: {{ diffuse: NUMBER }}` is understood")
-            self.reflectance = float(value)
+        self.material = written.get("material")
+        value = (self.material or {}).get("diffuse")
+        self.reflectance = float(value) if isinstance(value, (int, float)) else None
 
 
 class Light:
