@@ -58,6 +58,12 @@ impl Metal {
         (a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2]))
     }
 
+    /// What part of unpolarised light it throws back at an angle, at a wavelength in vacuum (nm).
+    pub fn reflectance(&self, cosine: f64, wavelength_nm: f64) -> f64 {
+        let (n, k) = self.at(wavelength_nm);
+        crate::fresnel::conductor(cosine, n, k)
+    }
+
     /// n and k at many wavelengths.
     pub fn at_each<const N: usize>(&self, wavelengths_nm: &[f64; N]) -> ([f64; N], [f64; N]) {
         let (mut n, mut k) = ([0.0; N], [0.0; N]);

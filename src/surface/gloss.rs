@@ -4,7 +4,6 @@ use super::microfacet::highlight;
 use super::paint::{Paint, Tint};
 use super::veil::NormalMap;
 use super::{Glass, Look, Scatter, Surface};
-use crate::fresnel;
 use crate::spectrum::Metal;
 use crate::texture::Texture;
 use glam::DVec3;
@@ -63,23 +62,30 @@ pub struct Clearcoat {
 /// (A metal by its index multiplies w.)
 #[derive(Debug)]
 pub(crate) struct Lobes<'s> {
-    /// What the diffuse part, and a metal, have for a colour.
+    /// What the diffuse part, and a metal of a colour, have for a colour.
     pub(crate) base: Option<Tint<'s>>,
+    /// The normal, relief included, on the side from which it is seen.
+    pub(crate) normal: DVec3,
+    // Share of the diffuse part.
+    diffuse: f64,
+    /// What it reflects otherwise.
+    pub(crate) shine: Option<Shine<'s>>,
+}
+
+/// What a surface reflects otherwise than to all sides.
+#[derive(Debug)]
+pub(crate) struct Shine<'s> {
     /// What the dielectric's reflection has for a colour.
     pub(crate) tint: Option<Tint<'s>>,
     /// Whose reflectance the white part is multiplied with.
     pub(crate) metal: Option<&'s Metal>,
-    /// The normal, relief included, on the side from which it is seen.
-    pub(crate) normal: DVec3,
     metallic: f64,
-    // Share of the diffuse part.
-    diffuse: f64,
     // Reflectances of the dielectric facing the light (before its tint) and at grazing; the tint's largest channel.
     facing: f64,
     grazing: f64,
     tint_peak: f64,
-    /// Of the base.
-    pub(crate) roughness: f64,
+    // Of the base.
+    roughness: f64,
     coat: Option<Coat>,
 }
 
@@ -124,33 +130,20 @@ fn fifth(cosine: f64) -> f64 {
 }
 
 impl<'s> Lobes<'s> {
-    fn plain(normal: DVec3) -> Self {
-        Self {
-            base: None,
-            tint: None,
-            metal: None,
-            normal,
-            metallic: 0.0,
-            diffuse: 0.0,
-            facing: 0.0,
-            grazing: 0.0,
-            tint_peak: 1.0,
-            roughness: 1.0,
-            coat: None,
-        }
-    }
-
     /// What scatters light of lamps at a place; none for what does not.
     #[inline]
     pub(crate) fn of(surface: &'s Surface, look: &Look<'_>) -> Option<Self> {
-        let plain = || Self::plain(look.normal(surface.relief.as_ref()));
+        let normal = look.normal(surface.relief.as_ref());
         match &surface.scatter {
-            Scatter::Diffuse(paint) => Some(Self { base: Some(paint.at(look)), diffuse: 1.0, ..plain() }),
-            Scatter::Metal(Polish { of, roughness }) => {
-                Some(Self { metal: Some(of), roughness: *roughness, ..plain() })
+            Scatter::Diffuse(paint) => {
+                Some(Self { base: Some(paint.at(look)), normal, diffuse: 1.0, shine: None })
             }
-            Scatter::Gloss(gloss) => Some(gloss.lobes(look, plain())),
-            Scatter::Glass(glass) => Some(glass.lobes(look, plain())),
+            Scatter::Metal(Polish { of, roughness }) => {
+                let shine = Shine { metal: Some(of), roughness: *roughness, ..Shine::NONE };
+                Some(Self { base: None, normal, diffuse: 0.0, shine: Some(shine) })
+            }
+            Scatter::Gloss(gloss) => Some(gloss.lobes(look, normal)),
+            Scatter::Glass(glass) => Some(glass.lobes(look, normal)),
             Scatter::Absorb | Scatter::Mirror(_) | Scatter::Mixed(_) => None,
         }
     }
@@ -158,9 +151,61 @@ impl<'s> Lobes<'s> {
     /// How light along `to_light` (unit, away from the surface) goes to `to_eye`: `f(λ)`, per steradian.
     #[inline]
     pub(crate) fn response(&self, to_light: DVec3, to_eye: DVec3) -> Response {
-        let mut response = Response { base: self.diffuse * FRAC_1_PI, ..Response::default() };
+        let response = Response { base: self.diffuse * FRAC_1_PI, ..Response::default() };
+        match &self.shine {
+            Some(shine) => shine.response(response, self.normal, to_light, to_eye),
+            None => response,
+        }
+    }
+
+    /// What the surface makes of light that is the same from all sides: its diffuse part, and each of its reflections.
+    pub(crate) fn all_round(&self, to_eye: DVec3) -> (Response, [Option<Reflection>; 2]) {
+        let diffuse = Response { base: self.diffuse, ..Response::default() };
+        match &self.shine {
+            Some(shine) => shine.all_round(diffuse, self.normal, to_eye),
+            None => (diffuse, [None, None]),
+        }
+    }
+
+    /// Whose reflectance the white part of responses is multiplied with.
+    pub(crate) fn metal(&self) -> Option<&'s Metal> {
+        self.shine.as_ref().and_then(|shine| shine.metal)
+    }
+
+    /// A response at one wavelength in the surface's rest frame.
+    pub(crate) fn at(&self, response: &Response, wavelength_nm: f64) -> f64 {
+        let of = |tint: Option<&Tint<'_>>| tint.map_or(0.0, |tint| tint.at(wavelength_nm));
+        let mut sum = match self.metal() {
+            Some(metal) => response.white * metal.reflectance(response.cosine, wavelength_nm),
+            None => response.white,
+        };
+        if response.base > 0.0 {
+            sum += response.base * of(self.base.as_ref());
+        }
+        if response.tint > 0.0 {
+            sum += response.tint * of(self.shine.as_ref().and_then(|shine| shine.tint.as_ref()));
+        }
+        sum
+    }
+}
+
+impl Shine<'_> {
+    const NONE: Self = Self {
+        tint: None,
+        metal: None,
+        metallic: 0.0,
+        facing: 0.0,
+        grazing: 0.0,
+        tint_peak: 1.0,
+        roughness: 1.0,
+        coat: None,
+    };
+
+    fn response(&self, diffuse: Response, normal: DVec3, to_light: DVec3, to_eye: DVec3) -> Response {
+        let alpha = self.roughness * self.roughness;
+        let mut response = diffuse;
         if self.metal.is_some() {
-            if let Some((height, cosine)) = highlight(self.alpha(), self.normal, to_light, to_eye) {
+            if let Some((height, cosine)) = highlight(alpha, normal, to_light, to_eye) {
                 response = Response { white: height, cosine, ..response };
             }
             return response;
@@ -168,11 +213,11 @@ impl<'s> Lobes<'s> {
         if self.grazing > 0.0 || self.metallic > 0.0 {
             let half = (to_light + to_eye).normalize_or_zero();
             let share = fifth(half.dot(to_eye));
-            let height = highlight(self.alpha(), self.normal, to_light, to_eye).map_or(0.0, |(d, _)| d);
+            let height = highlight(alpha, normal, to_light, to_eye).map_or(0.0, |(d, _)| d);
             self.reflected(&mut response, share, height);
         }
         if let Some(coat) = &self.coat {
-            let share = coat.strength * (COAT + (1.0 - COAT) * fifth(coat.normal.dot(to_eye)));
+            let share = coat.share(to_eye);
             let shine = highlight(coat.roughness * coat.roughness, coat.normal, to_light, to_eye);
             response = response.times(1.0 - share);
             response.white += share * shine.map_or(0.0, |(height, _)| height);
@@ -195,15 +240,14 @@ impl<'s> Lobes<'s> {
         response.white += (dielectric * self.grazing + self.metallic) * share * height;
     }
 
-    fn alpha(&self) -> f64 {
-        self.roughness * self.roughness
-    }
-
-    /// What the surface makes of light that is the same from all sides: its diffuse part, and each of its reflections.
-    pub(crate) fn all_round(&self, to_eye: DVec3) -> (Response, [Option<Reflection>; 2]) {
+    fn all_round(
+        &self,
+        mut diffuse: Response,
+        normal: DVec3,
+        to_eye: DVec3,
+    ) -> (Response, [Option<Reflection>; 2]) {
         let mut reflections = [None, None];
-        let cosine = self.normal.dot(to_eye).clamp(0.0, 1.0);
-        let mut diffuse = Response { base: self.diffuse, ..Response::default() };
+        let cosine = normal.dot(to_eye).clamp(0.0, 1.0);
         let mut mirrored = Response::default();
         if self.metal.is_some() {
             mirrored = Response { white: 1.0, cosine, ..mirrored };
@@ -213,36 +257,23 @@ impl<'s> Lobes<'s> {
             self.reflected(&mut mirrored, share, 1.0);
         }
         if let Some(coat) = &self.coat {
-            let share = coat.strength * (COAT + (1.0 - COAT) * fifth(coat.normal.dot(to_eye)));
+            let share = coat.share(to_eye);
             diffuse = diffuse.times(1.0 - share);
             mirrored = mirrored.times(1.0 - share);
             let response = Response { white: share, ..Response::default() };
             reflections[0] = Some(Reflection { normal: coat.normal, roughness: coat.roughness, response });
         }
         if mirrored.base + mirrored.tint + mirrored.white > 0.0 {
-            let (normal, roughness) = (self.normal, self.roughness);
-            reflections[1] = Some(Reflection { normal, roughness, response: mirrored });
+            reflections[1] = Some(Reflection { normal, roughness: self.roughness, response: mirrored });
         }
         (diffuse, reflections)
     }
+}
 
-    /// A response at one wavelength in the surface's rest frame.
-    pub(crate) fn at(&self, response: &Response, wavelength_nm: f64) -> f64 {
-        let of = |tint: &Option<Tint<'_>>| tint.as_ref().map_or(0.0, |tint| tint.at(wavelength_nm));
-        let mut sum = match self.metal {
-            Some(metal) => {
-                let (n, k) = metal.at(wavelength_nm);
-                response.white * fresnel::conductor(response.cosine, n, k)
-            }
-            None => response.white,
-        };
-        if response.base > 0.0 {
-            sum += response.base * of(&self.base);
-        }
-        if response.tint > 0.0 {
-            sum += response.tint * of(&self.tint);
-        }
-        sum
+impl Coat {
+    /// What part of the light it reflects, by the angle of sight.
+    fn share(&self, to_eye: DVec3) -> f64 {
+        self.strength * (COAT + (1.0 - COAT) * fifth(self.normal.dot(to_eye)))
     }
 }
 
@@ -273,7 +304,7 @@ fn channel(texture: Option<&Texture>, channel: usize, look: &Look<'_>) -> f64 {
 }
 
 impl Gloss {
-    fn lobes<'s>(&'s self, look: &Look<'_>, plain: Lobes<'s>) -> Lobes<'s> {
+    fn lobes<'s>(&'s self, look: &Look<'_>, normal: DVec3) -> Lobes<'s> {
         let texel = self.metal_rough.as_ref().map_or([1.0; 4], |texture| look.texel(texture));
         let specular = self.specular * channel(self.specular_texture.as_ref(), 3, look);
         let facing = facing(self.index) * specular;
@@ -286,33 +317,27 @@ impl Gloss {
             roughness: coat.roughness * channel(coat.roughness_texture.as_ref(), 1, look),
             normal: look.normal(coat.relief.as_ref()),
         });
-        Lobes {
-            base: Some(self.base.at(look)),
+        let shine = Shine {
             tint: self.specular_color.as_ref().map(|color| color.at(look)),
+            metal: None,
             metallic: self.metallic * f64::from(texel[2]),
-            diffuse: 1.0,
             facing,
             grazing: specular,
             tint_peak,
             roughness: (self.roughness * f64::from(texel[1])).clamp(0.0, 1.0),
             coat: coat.filter(|coat| coat.strength > 0.0),
-            ..plain
-        }
+        };
+        Lobes { base: Some(self.base.at(look)), normal, diffuse: 1.0, shine: Some(shine) }
     }
 }
 
 impl Glass {
     /// A dielectric's highlight, and the diffuse part of what is not all glass. Reflections are traced elsewhere.
-    fn lobes<'s>(&'s self, look: &Look<'_>, plain: Lobes<'s>) -> Lobes<'s> {
+    fn lobes<'s>(&'s self, look: &Look<'_>, normal: DVec3) -> Lobes<'s> {
         let index = self.medium_index().at(589.0);
         let amount = self.amount_at(look);
-        Lobes {
-            base: self.color.as_ref().filter(|_| amount < 1.0).map(|color| color.at(look)),
-            diffuse: 1.0 - amount,
-            facing: facing(index),
-            grazing: 1.0,
-            roughness: self.roughness,
-            ..plain
-        }
+        let shine = Shine { facing: facing(index), grazing: 1.0, roughness: self.roughness, ..Shine::NONE };
+        let base = self.color.as_ref().filter(|_| amount < 1.0).map(|color| color.at(look));
+        Lobes { base, normal, diffuse: 1.0 - amount, shine: Some(shine) }
     }
 }

@@ -65,7 +65,8 @@ impl Lit<'_> {
             *value *= part;
         }
         if let Some(reflected) = &arriving.reflected {
-            let tint = lobes.tint.as_ref().map_or([0.0; N], |tint| tint.at_each(&seen.nm));
+            let tint = lobes.shine.as_ref().and_then(|shine| shine.tint.as_ref());
+            let tint = tint.map_or([0.0; N], |tint| tint.at_each(&seen.nm));
             for (i, value) in radiance.iter_mut().enumerate() {
                 *value += reflected.tint[i] * tint[i] + reflected.white[i];
             }
@@ -82,7 +83,7 @@ impl Lit<'_> {
         arriving: &mut Arriving<N>,
         gathered: &mut Gathered<N>,
     ) {
-        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, lobes.metal, &seen.nm);
+        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, lobes.metal(), &seen.nm);
         for line in ambient.lines() {
             let nm = line.wavelength_nm;
             self.add_line(line, nm, line.power * lobes.at(fill, nm), seen, gathered);
@@ -110,24 +111,22 @@ impl Lit<'_> {
                 continue;
             }
             let mut intensity = source.at_each(&at_lamp);
-            self.filter(light.passage, light.connection, light.omega, &seen.nm, &mut intensity);
-            arriving.add(&intensity, factor, response, lobes.metal, &seen.nm);
+            if let Some(colored) = &light.passage.colored {
+                self.filter(colored, light.connection, light.omega, &seen.nm, &mut intensity);
+            }
+            arriving.add(&intensity, factor, response, lobes.metal(), &seen.nm);
             for line in source.lines() {
                 // A line's power is integrated over the wavelength, which shrinks by the shift.
                 let wavelength_nm = line.wavelength_nm / shift;
                 let mut passes = [1.0];
-                self.filter(light.passage, light.connection, light.omega, &[wavelength_nm], &mut passes);
+                if let Some(colored) = &light.passage.colored {
+                    self.filter(colored, light.connection, light.omega, &[wavelength_nm], &mut passes);
+                }
                 let power = line.power * factor / shift * passes[0] * lobes.at(response, wavelength_nm);
                 self.add_line(line, wavelength_nm, power, seen, gathered);
             }
         }
     }
-}
-
-/// What a bare metal throws back at an angle.
-fn reflects(metal: &Metal, cosine: f64, nm: f64) -> f64 {
-    let (n, k) = metal.at(nm);
-    crate::fresnel::conductor(cosine, n, k)
 }
 
 /// A lamp's light where it arrives.
@@ -160,7 +159,7 @@ impl<const N: usize> Arriving<N> {
             for (i, value) in light.iter().enumerate() {
                 sums.tint[i] += tint * value;
                 sums.white[i] +=
-                    white * value * metal.map_or(1.0, |metal| reflects(metal, response.cosine, nm[i]));
+                    white * value * metal.map_or(1.0, |metal| metal.reflectance(response.cosine, nm[i]));
             }
         }
     }

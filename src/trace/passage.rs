@@ -14,9 +14,15 @@ use crate::world::Hit;
 pub(super) struct Passage<'s> {
     /// At all wavelengths alike.
     pub(super) clear: f64,
+    /// What takes its part of each wavelength.
+    pub(super) colored: Option<Box<Colored<'s>>>,
+}
+
+/// What colours a lamp's light on its way.
+#[derive(Debug, Default)]
+pub(super) struct Colored<'s> {
     faces: Vec<Face<'s>>,
     insides: Vec<Stretch>,
-    s_lamp: f64,
 }
 
 /// A face of glass on the way, which lets `rest + part √tint(λ)` through.
@@ -39,9 +45,7 @@ struct Stretch {
 }
 
 impl<'s> Passage<'s> {
-    fn clear(s_lamp: f64) -> Self {
-        Self { clear: 1.0, faces: Vec::new(), insides: Vec::new(), s_lamp }
-    }
+    const CLEAR: Self = Self { clear: 1.0, colored: None };
 
     /// Takes from the light what a surface takes; whether nothing is left.
     fn take(&mut self, surface: &'s Surface, look: &Look<'_>) -> bool {
@@ -70,18 +74,22 @@ impl<'s> Passage<'s> {
         let part = share * glass.amount_at(look) * through;
         match &glass.color {
             Some(color) => {
-                self.faces.push(Face { tint: color.at(look), omega: k.t, rest: 1.0 - share, part });
+                let colored = self.colored.get_or_insert_default();
+                colored.faces.push(Face { tint: color.at(look), omega: k.t, rest: 1.0 - share, part });
             }
             None => self.clear *= 1.0 - share + part,
         }
         if !glass.thin {
             let entering = look.spot.outside;
-            self.insides.push(Stretch { medium: glass.medium, s: look.hit.s, entering });
+            let colored = self.colored.get_or_insert_default();
+            colored.insides.push(Stretch { medium: glass.medium, s: look.hit.s, entering });
         }
     }
+}
 
-    /// The sum of s that the light spends in each medium.
-    fn ways(&self) -> Vec<(u32, f64)> {
+impl Colored<'_> {
+    /// The sum of s that the light spends in each medium on its way from a lamp at `s_lamp`.
+    fn ways(&self, s_lamp: f64) -> Vec<(u32, f64)> {
         let mut media: Vec<u32> = self.insides.iter().map(|stretch| stretch.medium).collect();
         media.sort_unstable();
         media.dedup();
@@ -91,7 +99,7 @@ impl<'s> Passage<'s> {
                 if stretch.entering { (sum - stretch.s, open + 1) } else { (sum + stretch.s, open - 1) }
             });
             // Entered and not left: the lamp is inside.
-            let sum = if open > 0 { sum + self.s_lamp } else { sum };
+            let sum = if open > 0 { sum + s_lamp } else { sum };
             (medium, if sum.is_finite() { sum.max(0.0) } else { 0.0 })
         };
         media.into_iter().map(way).collect()
@@ -101,7 +109,7 @@ impl<'s> Passage<'s> {
 impl Lit<'_> {
     /// What is left of a lamp's light where it arrives; none if nothing is.
     pub(super) fn passage(&self, connection: &Connection) -> Option<Passage<'_>> {
-        let mut passage = Passage::clear(connection.s_lamp);
+        let mut passage = Passage::CLEAR;
         let ray = &connection.ray;
         let blocked = if self.see_through {
             self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
@@ -122,22 +130,22 @@ impl Lit<'_> {
     /// wavelengths are `nm`.
     pub(super) fn filter<const N: usize>(
         &self,
-        passage: &Passage<'_>,
+        colored: &Colored<'_>,
         connection: &Connection,
         omega: f64,
         nm: &[f64; N],
         light: &mut [f64; N],
     ) {
-        for face in &passage.faces {
+        for face in &colored.faces {
             let shift = self.effects.shift(omega / face.omega);
             for (value, nm) in light.iter_mut().zip(nm) {
                 *value *= face.rest + face.part * face.tint.at(nm * shift).max(0.0).sqrt();
             }
         }
-        if passage.insides.is_empty() {
+        if colored.insides.is_empty() {
             return;
         }
-        for (medium, way) in passage.ways() {
+        for (medium, way) in colored.ways(connection.s_lamp) {
             let Some(medium) = self.media.get(medium as usize) else { continue };
             let Some(absorption) = &medium.absorption else { continue };
             let k = medium.rest_from_lab * connection.ray.k;
