@@ -31,7 +31,7 @@ fn volume_absorbs_along_the_chord_of_the_ball() {
     let scene = stage("volume", "", &[], ALL);
     let wall = look(&scene, &sight(v(4.0, 0.0, 5.0), v(4.0, 0.0, -3.0))).radiance;
     let color = Reflectance::Rgb([0.9, 0.5, 0.2]);
-    let left = |nm: f64, chord: f64| color.at(nm).powf(chord / 1.5);
+    let left = |nm: f64, chord: f64| libm::pow(color.at(nm), chord / 1.5);
     let nm = Wavelengths::<64>::new().nm;
 
     // Through the middle, from corner to corner, and to and fro within.
@@ -73,7 +73,7 @@ fn on_screen(entry: DVec2, along: DVec2, n: f64) -> f64 {
     exit.y + out.y / out.x * (10.0 - exit.x)
 }
 
-/// `dispersion.glb`: n(λ) = n_d + (n_d - 1)/V (523655 nm²/λ² - 1.5168), V = 20/2.
+/// `dispersion.glb`: `n(λ) = n_d + (n_d - 1)/V (523655 nm²/λ² - 1.5168)`, V = 20/2.
 #[test]
 fn dispersion_bends_each_wavelength_by_its_own_index() {
     // What is reflected is not followed: its part goes where the rest goes, with or without a pattern on the screen.

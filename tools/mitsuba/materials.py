@@ -230,12 +230,13 @@ class Peer:
                 break
             pixel, o, d, part, inside = self.onward(si, shape, d, pixel, part, inside)
             keep = part.max(1) > FAINTEST
-            pixel, o, d, part, inside = pixel[keep], o[keep], d[keep], part[keep], inside[keep]
+            pixel, o, d, part, inside = (a[keep] for a in (pixel, o, d, part, inside))
             if not len(pixel):
                 break
         return total, doubtful
 
     def vector(self, kind, a):
+        """Rows of three as Mitsuba has them."""
         return kind(*[self.mi.Float(np.ascontiguousarray(a[:, i], np.float32)) for i in range(3)])
 
     def each_four(self, si):
@@ -316,8 +317,8 @@ class Peer:
         matching = np.array(mi.cie1931_xyz(mi.Float(WAVELENGTHS))) * (BANDS[1] - BANDS[0]) * mi.MI_CIE_Y_NORMALIZATION
         light, doubtful = self.trace()
         width, height = self.manifest.size
-        picture = light @ matching.T @ RGB_FROM_XYZ.T
-        return picture.reshape(height, width, 3), (doubtful > 2e-3 * light.sum(1)).reshape(height, width)
+        rgb = light @ matching.T @ RGB_FROM_XYZ.T
+        return rgb.reshape(height, width, 3), (doubtful > 2e-3 * light.sum(1)).reshape(height, width)
 
 
 def even(picture):
@@ -375,8 +376,7 @@ def side_by_side(pairs, path):
     rows = []
     for ours, theirs in pairs:
         white = np.percentile(theirs.max(-1), 97)
-        gap = np.ones((ours.shape[0], 4, 3))
-        rows.append(np.concatenate([ours / white, gap, theirs / white], 1))
+        rows.append(np.concatenate([ours / white, np.ones((len(ours), 4, 3)), theirs / white], 1))
     linear = np.clip(np.concatenate(rows), 0, 1)
     stored = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     Image.fromarray(np.round(255 * stored).astype(np.uint8)).save(path, quality=88)
