@@ -4,6 +4,7 @@
 mod aberration;
 mod boost;
 mod cli;
+mod clockwork;
 mod course;
 mod delay;
 mod doppler;
