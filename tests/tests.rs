@@ -10,6 +10,7 @@ mod delay;
 mod doppler;
 mod effects;
 mod equivalence;
+mod fill;
 mod film;
 mod fresnel;
 mod furnace;
