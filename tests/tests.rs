@@ -12,6 +12,7 @@ mod effects;
 mod equivalence;
 mod fill;
 mod film;
+mod fizeau;
 mod fresnel;
 mod furnace;
 mod glass;
