@@ -1,10 +1,11 @@
 //! Everything as the lab sees it that moves with a velocity in the old lab.
 
-use super::{Body, Eye, Lantern, Stage};
+use super::{Body, Eye, Heaven, Lantern, Stage};
 use glam::{DAffine3, DQuat, DVec3};
 use terrell::lamp::Beam;
 use terrell::observer::Aim;
-use terrell::spacetime::{Boost, Event, Lab, Lorentz, Poincare, Rest, Velocity};
+use terrell::spacetime::{Boost, Event, Lab, Lorentz, Poincare, Rest, SightRay, Velocity};
+
 /// The new lab's view of an event.
 pub(crate) fn event(boost: Velocity, event: Event) -> Event {
     Event::ORIGIN + Boost::<Lab, Lab>::to_moving(boost) * (event - Event::ORIGIN)
@@ -36,14 +37,20 @@ fn lantern(boost: Velocity, lantern: &Lantern) -> Lantern {
         }
         Beam::Sun { axis } => Beam::Sun { axis: turn * axis },
     };
-    Lantern { origin: event(boost, lantern.origin), velocity: moves, beam, source: lantern.source.clone() }
+    Lantern { origin: event(boost, lantern.origin), velocity: moves, beam, light: lantern.light.clone() }
 }
 
-/// Bodies and lamps.
+fn heaven(boost: Velocity, heaven: &Heaven) -> Heaven {
+    let (moves, turn) = velocity(boost, heaven.velocity);
+    heaven.clone().turned(turn).moving(moves)
+}
+
+/// Bodies, lamps and what is infinitely far away.
 pub(crate) fn stage(boost: Velocity, stage: &Stage) -> Stage {
     Stage {
         bodies: stage.bodies.iter().map(|b| body(boost, b)).collect(),
         lamps: stage.lamps.iter().map(|l| lantern(boost, l)).collect(),
+        skies: stage.skies.iter().map(|sky| heaven(boost, sky)).collect(),
         ..stage.clone()
     }
 }
@@ -62,4 +69,10 @@ fn target(boost: Velocity, rest_from_lab: Poincare<Rest, Lab>, place: DVec3) -> 
     let (moves, turn) = velocity(boost, rest_from_lab.boost().velocity());
     let origin = event(boost, rest_from_lab.origin());
     Aim::At { rest_from_lab: Poincare::to_moving(moves, origin), place: turn * place }
+}
+
+/// A sight ray as the new lab sees it, in units of who stands still there.
+pub(crate) fn ray(boost: Velocity, ray: &SightRay) -> SightRay {
+    let k = Boost::<Lab, Lab>::to_moving(boost) * ray.k;
+    SightRay { event: event(boost, ray.event), k: k * (1.0 / k.t) }
 }

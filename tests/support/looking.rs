@@ -5,7 +5,7 @@ use terrell::exposure::{Sampling, expose};
 use terrell::film::{Negative, Reconstruction};
 use terrell::observer::View;
 use terrell::scene::Scene;
-use terrell::spacetime::{Event, FourVector, Poincare, Rest, SightRay};
+use terrell::spacetime::{Event, FourVector, Poincare, Rest, SightRay, Velocity};
 use terrell::spectrum::Wavelengths;
 use terrell::trace::{First, Light};
 
@@ -57,4 +57,16 @@ pub(crate) fn picture(scene: &Scene, width: u32, height: u32) -> (View, Negative
 pub(crate) fn pixel_centre(number: usize, width: u32) -> DVec2 {
     let width = width as usize;
     DVec2::new((number % width) as f64 + 0.5, (number / width) as f64 + 0.5)
+}
+
+/// The frequency, for someone who moves, of light that moves along the unit vector `n` in the lab with frequency 1 there.
+pub(crate) fn frequency(velocity: Velocity, n: DVec3) -> f64 {
+    velocity.gamma() - velocity.proper().dot(n)
+}
+
+/// Aberration: the direction, in the rest frame of someone who moves, of light that moves along the unit vector `n` in
+/// the lab.
+pub(crate) fn along(velocity: Velocity, n: DVec3) -> DVec3 {
+    let u = velocity.proper();
+    (n + u * (u.dot(n) / (velocity.gamma() + 1.0) - 1.0)) / frequency(velocity, n)
 }

@@ -1,18 +1,23 @@
 //! What the laws are tried on: small meshes, a stage to put them on, an eye to look with, and dice.
 
 pub(crate) mod boosted;
+mod heaven;
 mod looking;
 mod meshes;
 mod numbers;
 mod stage;
 mod surfaces;
 
+pub(crate) use heaven::Heaven;
 pub(crate) use looking::{
-    first, is_bright, light_at_rest, light_from, light_to, look, picture, pixel_centre,
+    along, first, frequency, is_bright, light_at_rest, light_from, light_to, look, picture, pixel_centre,
 };
 pub(crate) use meshes::{built, coloured, cube, icosphere, soup, square};
 pub(crate) use numbers::{
     Dice, angle, beta, close, edge, emission_time, near, near_vector, speed, v, vectors, velocities,
 };
 pub(crate) use stage::{Body, Eye, Lantern, Stage};
-pub(crate) use surfaces::{black, black_body, diffuse, flat, glass, glowing, line, mirror};
+pub(crate) use surfaces::{
+    ball, black, black_body, blinking, cuboid, diffuse, flat, glass, glowing, line, mirror, mixed, pane,
+    plane,
+};

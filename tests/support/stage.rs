@@ -1,10 +1,14 @@
 //! Bodies, lamps and an observer as data.
 
+use super::Heaven;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::sync::Arc;
+use terrell::course::Course as Clockwork;
 use terrell::lamp::{Beam, Lamp};
+use terrell::mesh::Mesh;
 use terrell::observer::{Aim, Observer};
-use terrell::scene::{Placement, Scene, Sky, WorldBuilder};
+use terrell::scene::{Placement, Scene, WorldBuilder};
+use terrell::solid::Solid;
 use terrell::spacetime::{Course, Event, Poincare, SightRay, Velocity, Worldline};
 use terrell::spectrum::Index;
 use terrell::spectrum::Source;
@@ -17,11 +21,15 @@ use terrell::world::Form;
 #[derive(Clone)]
 pub(crate) struct Body {
     pub(crate) mesh: Arc<Triangles>,
+    /// Instead of the mesh.
+    pub(crate) solid: Option<Arc<Solid>>,
     pub(crate) placement: Placement,
     pub(crate) rest_from_mesh: DAffine3,
     pub(crate) surface: Surface,
     pub(crate) index: Index,
     pub(crate) absorption: Option<Absorption>,
+    /// Its own fill light.
+    pub(crate) ambient: Option<Source>,
 }
 
 impl Body {
@@ -30,12 +38,30 @@ impl Body {
         let placement = Placement { origin: Event::ORIGIN, velocity: Velocity::REST };
         Self {
             mesh: mesh.clone(),
+            solid: None,
             placement,
             rest_from_mesh: DAffine3::IDENTITY,
             surface,
             index: Index::Constant(1.0),
             absorption: None,
+            ambient: None,
         }
+    }
+
+    /// A shape without triangles, at rest at the origin.
+    pub(crate) fn of(solid: Solid, surface: Surface) -> Self {
+        let none = Arc::new(Triangles::new(Arc::new(Mesh::default())));
+        Self { solid: Some(Arc::new(solid)), ..Self::new(&none, surface) }
+    }
+
+    fn form(&self) -> Form {
+        self.solid.clone().map_or_else(|| Form::Mesh(self.mesh.clone()), Form::Solid)
+    }
+
+    /// In a fill light of its own.
+    pub(crate) fn in_ambient(mut self, radiance: Source) -> Self {
+        self.ambient = Some(radiance);
+        self
     }
 
     /// Filled with glass.
@@ -48,9 +74,17 @@ impl Body {
     fn surface(&self, number: u32) -> Surface {
         let mut surface = self.surface.clone();
         if let Scatter::Glass(glass) = &mut surface.scatter {
-            **glass = Glass { medium: number, index: self.index, ..*glass.clone() };
+            // A pane has an index of its own.
+            let index = if glass.thin { glass.index } else { self.index };
+            **glass = Glass { medium: number, index, ..*glass.clone() };
         }
         surface
+    }
+
+    /// The volume of its box in its own coordinates; nobody asks for that of what has no end.
+    fn volume(&self) -> f64 {
+        let bounds = self.solid.as_ref().map(|solid| solid.bounds());
+        bounds.map_or(1.0, |bounds| (bounds.hi - bounds.lo).element_product())
     }
 
     /// Its centre passes through this event.
@@ -95,14 +129,21 @@ pub(crate) struct Lantern {
     pub(crate) origin: Event,
     pub(crate) velocity: Velocity,
     pub(crate) beam: Beam,
-    pub(crate) source: Source,
+    pub(crate) light: Vec<(Clockwork, Source)>,
 }
 
 impl Lantern {
     /// A point lamp through an event.
     pub(crate) fn at(t: f64, x: DVec3, source: Source) -> Self {
         let beam = Beam::Point { place: DVec3::ZERO };
-        Self { origin: Event::new(t, x), velocity: Velocity::REST, beam, source }
+        let light = vec![(Clockwork::Steady, source)];
+        Self { origin: Event::new(t, x), velocity: Velocity::REST, beam, light }
+    }
+
+    /// With a course in its own time.
+    pub(crate) fn by(mut self, course: &Clockwork) -> Self {
+        self.light.iter_mut().for_each(|part| part.0 = course.clone());
+        self
     }
 
     /// It moves.
@@ -120,7 +161,7 @@ impl Lantern {
         Lamp {
             rest_from_lab: Poincare::to_moving(self.velocity, self.origin),
             beam: self.beam,
-            light: vec![(terrell::course::Course::Steady, self.source.clone())],
+            light: self.light.clone(),
         }
     }
 }
@@ -131,7 +172,7 @@ pub(crate) struct Stage {
     pub(crate) bodies: Vec<Body>,
     pub(crate) lamps: Vec<Lantern>,
     pub(crate) ambient: Option<Source>,
-    pub(crate) surroundings: Vec<Sky>,
+    pub(crate) skies: Vec<Heaven>,
     pub(crate) effects: Effects,
     pub(crate) depth: u32,
 }
@@ -140,14 +181,7 @@ impl Stage {
     /// With bodies.
     pub(crate) fn of(bodies: impl IntoIterator<Item = Body>) -> Self {
         let bodies = bodies.into_iter().collect();
-        Self {
-            bodies,
-            lamps: Vec::new(),
-            ambient: None,
-            surroundings: Vec::new(),
-            effects: Effects::ALL,
-            depth: 8,
-        }
+        Self { bodies, lamps: Vec::new(), ambient: None, skies: Vec::new(), effects: Effects::ALL, depth: 8 }
     }
 
     /// With lamps.
@@ -156,20 +190,31 @@ impl Stage {
         self
     }
 
+    /// Below something infinitely far away.
+    pub(crate) fn under(mut self, sky: Heaven) -> Self {
+        self.skies.push(sky);
+        self
+    }
+
     /// The scene, as `eye` sees it.
     pub(crate) fn seen_by(&self, eye: &Eye) -> Scene {
         let mut world = WorldBuilder::default();
+        let mut ambient = vec![self.ambient.clone().unwrap_or_default()];
+        let mut surfaces = Vec::new();
         for (number, body) in self.bodies.iter().enumerate() {
             let number = number as u32;
-            world.add(number, body.placement, &Form::Mesh(body.mesh.clone()), body.rest_from_mesh, number);
+            world.add(number, body.placement, &body.form(), body.rest_from_mesh, number);
+            let own = if body.ambient.is_some() { ambient.len() as u32 } else { 0 };
+            ambient.extend(body.ambient.clone());
+            surfaces.push(body.surface(number).in_ambient(own));
         }
         Scene {
             world: world.build(),
-            surfaces: (0..).zip(&self.bodies).map(|(number, body)| body.surface(number)).collect(),
+            surfaces,
             lamps: self.lamps.iter().map(Lantern::lamp).collect(),
             media: self.media(),
-            ambient: vec![self.ambient.clone().unwrap_or_default()],
-            surroundings: self.surroundings.clone(),
+            ambient,
+            surroundings: self.skies.iter().map(Heaven::sky).collect(),
             lines: Vec::new(),
             effects: self.effects,
             depth: self.depth,
@@ -186,7 +231,7 @@ impl Stage {
             index: body.index,
             absorption: body.absorption.clone(),
             rest_from_lab: body.placement.rest_from_lab().boost(),
-            volume: body.rest_from_mesh.matrix3.determinant().abs(),
+            volume: body.rest_from_mesh.matrix3.determinant().abs() * body.volume(),
         };
         if glass { self.bodies.iter().map(medium).collect() } else { Vec::new() }
     }

@@ -1,5 +1,8 @@
 //! Sources and surfaces.
 
+use glam::{DAffine3, DVec3};
+use terrell::course::Course;
+use terrell::solid::{Shape, Solid};
 use terrell::spectrum::{Index, Source, Spectrum};
 use terrell::surface::{Glass, Glow, Paint, Scatter, Surface};
 
@@ -44,4 +47,48 @@ pub(crate) fn glass() -> Surface {
     let glass =
         Glass { medium: 0, index, thin: false, color, amount: 1.0, amount_texture: None, roughness: 0.0 };
     Surface::new(Scatter::Glass(Box::new(glass)))
+}
+
+/// Clear glass without thickness.
+pub(crate) fn pane(index: Index) -> Surface {
+    let glass = Glass {
+        medium: 0,
+        index,
+        thin: true,
+        color: None,
+        amount: 1.0,
+        amount_texture: None,
+        roughness: 0.0,
+    };
+    Surface::new(Scatter::Glass(Box::new(glass)))
+}
+
+/// Different surfaces at different times.
+pub(crate) fn mixed(parts: impl IntoIterator<Item = (Course, Surface)>) -> Surface {
+    Surface::new(Scatter::Mixed(parts.into_iter().collect()))
+}
+
+/// On for the first `lit` of every period from `start` on.
+pub(crate) fn blinking(period: f64, lit: f64, start: f64) -> Course {
+    Course::Blinking { period, lit, start, inverted: false }
+}
+
+/// A ball about a place.
+pub(crate) fn ball(radius: f64, centre: DVec3) -> Solid {
+    let map = DAffine3::from_translation(centre) * DAffine3::from_scale(DVec3::splat(radius));
+    Solid::from(Shape::Sphere).placed(map).unwrap()
+}
+
+/// A box from corner to corner.
+pub(crate) fn cuboid(lo: DVec3, hi: DVec3) -> Solid {
+    let map = DAffine3::from_translation(0.5 * (lo + hi)) * DAffine3::from_scale(hi - lo);
+    Solid::from(Shape::Box).placed(map).unwrap()
+}
+
+/// All that is behind a place, as seen along a normal.
+pub(crate) fn plane(place: DVec3, normal: DVec3) -> Solid {
+    let y = normal / normal.length();
+    let x = y.any_orthonormal_vector();
+    let turn = glam::DMat3::from_cols(x, y, x.cross(y));
+    Solid::from(Shape::Plane).placed(DAffine3::from_mat3_translation(turn, place)).unwrap()
 }
