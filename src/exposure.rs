@@ -23,6 +23,9 @@ pub struct Sampling {
     pub wavelengths: u32,
 }
 
+/// Steps by it visit 0 to 1 evenly, and in an order that has nothing to do with where samples lie.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// Rows that one task of the pool takes: small enough to share out, large enough to keep rays together.
 const ROWS_PER_TASK: usize = 4;
 
@@ -40,8 +43,7 @@ fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) 
     let lit = scene.lit();
     let wavelengths = Wavelengths::<N>::new();
     let offsets = sampling.reconstruction.offsets(sampling.samples);
-    let phases: Vec<f64> =
-        (0..sampling.samples).map(|i| (f64::from(i) + 0.5) / f64::from(sampling.samples)).collect();
+    let phases: Vec<f64> = (0..sampling.samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect();
     let share = 1.0 / f64::from(sampling.samples);
     let expose_pixel = |column: usize, row: usize| {
         let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);

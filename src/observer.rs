@@ -111,7 +111,7 @@ impl View {
         // A pixel's solid angle is its area on the plane at distance 1, times cos³.
         let pixel = self.half_width / self.size.x * cosine * cosine.sqrt();
         // With aberration switched off the angle is seen by those beside whom the light has another frequency.
-        let pixel = self.seer.map_or(pixel, |_| pixel / ray.k.dot(self.tetrad.velocity()));
+        let pixel = self.seer.map_or(pixel, |_| pixel * ray.k.dot(self.tetrad.velocity()));
         Cone { sample: pixel / f64::from(samples).sqrt(), pixel, phase: 0.0 }
     }
 

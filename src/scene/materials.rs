@@ -19,8 +19,8 @@ use std::sync::Arc;
 /// Luminance of an unlit surface of white colour, cd/m² (glTF gives it none).
 pub const UNLIT_LUMINANCE: f64 = 100.0;
 
-/// Above this roughness glass from a file is a diffuse surface that lets nothing through: there is no sharp ray in it.
-const ROUGHEST: f64 = 1.0;
+/// The index of glass for which a file says 0: infinite, so that all is reflected.
+const INFINITE_INDEX: f64 = 100.0;
 
 /// Makes surfaces, and keeps what they share.
 #[derive(Default)]
@@ -144,6 +144,10 @@ impl Workshop {
             report.fault(glass.place.clone(), what, "glass: BK7");
             return Surface::new(Scatter::Absorb);
         };
+        if let (true, Some(_)) = (glass.thin, &glass.color) {
+            let what = "a thin pane has no inside that could colour light over a distance";
+            report.fault(glass.place.clone(), what, "remove `thin: on`, or `color` and `distance`");
+        }
         let absorption = glass.color.as_ref().map(|tint| Absorption {
             left: reflectance(&tint.color, Beyond::MEAN, owner.place, report),
             distance: tint.distance,
@@ -203,7 +207,8 @@ impl Workshop {
         base: Paint,
         owner: Owner<'_>,
     ) -> Glass {
-        let index = Index::from_dispersion(f64::from(file.ior).max(1.0), f64::from(file.dispersion));
+        let ior = if file.ior == 0.0 { INFINITE_INDEX } else { f64::from(file.ior).max(1.0) };
+        let index = Index::from_dispersion(ior, f64::from(file.dispersion));
         let absorption = file.volume.filter(|volume| volume.attenuation_distance.is_finite());
         let absorption = absorption.map(|volume| Absorption {
             left: Reflectance::Rgb(volume.attenuation_color.map(f64::from)),
@@ -218,12 +223,11 @@ impl Workshop {
             color: Some(base),
             amount: f64::from(transmission.amount) * (1.0 - f64::from(file.metal.metallic)),
             amount_texture: transmission.texture.clone(),
-            roughness: f64::from(file.metal.roughness).min(ROUGHEST),
+            roughness: f64::from(file.metal.roughness),
         }
     }
 }
 
-/// What is left of the mean of the file's three kinds of `ultraviolet:` and `infrared:`.
 fn end(written: manifest::Beyond) -> End {
     match written {
         manifest::Beyond::Mean => End::Mean,

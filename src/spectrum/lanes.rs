@@ -3,6 +3,7 @@
 use super::{D65, Reflectance};
 use crate::color::{self, LUMENS_PER_WATT};
 use glam::{DMat3, DVec3};
+use std::sync::LazyLock;
 
 /// Shortest and longest of the sampled range, nm.
 const RANGE_NM: (f64, f64) = (400.0, 700.0);
@@ -28,17 +29,35 @@ impl<const N: usize> Default for Wavelengths<N> {
 impl<const N: usize> Wavelengths<N> {
     /// The rule with `N` (at least 2) wavelengths, the middles of `N` equal parts of 400 to 700 nm.
     pub fn new() -> Self {
+        let (nm, mut weights) = Self::hats();
+        for axis in 0..3 {
+            correct(&mut weights, &nm, axis);
+        }
+        Self { nm, weights }
+    }
+
+    /// The wavelengths, and the weights of a spectrum that is linear between them.
+    fn hats() -> ([f64; N], [DVec3; N]) {
         let step = (RANGE_NM.1 - RANGE_NM.0) / N as f64;
         let nm: [f64; N] = std::array::from_fn(|i| RANGE_NM.0 + step * (i as f64 + 0.5));
         let hat = |i: usize, at: f64| {
             let held = at.clamp(nm[0], nm[N - 1]);
             (1.0 - ((held - nm[i]) / step).abs()).max(0.0)
         };
-        let mut weights: [DVec3; N] = std::array::from_fn(|i| color::xyz_of(|at| hat(i, at)));
-        for axis in 0..3 {
-            correct(&mut weights, &nm, axis);
-        }
-        Self { nm, weights }
+        (nm, std::array::from_fn(|i| color::xyz_of(|at| hat(i, at))))
+    }
+
+    /// The weights without the correction: those of a spectrum that is linear between the wavelengths.
+    pub(crate) fn plain_weights() -> &'static [DVec3] {
+        static PLAIN: LazyLock<[Vec<DVec3>; 4]> = LazyLock::new(|| {
+            [
+                Wavelengths::<8>::hats().1.to_vec(),
+                Wavelengths::<16>::hats().1.to_vec(),
+                Wavelengths::<32>::hats().1.to_vec(),
+                Wavelengths::<64>::hats().1.to_vec(),
+            ]
+        });
+        PLAIN.iter().find(|weights| weights.len() == N).map_or(&[], Vec::as_slice)
     }
 
     /// XYZ (cd/m²) of a spectral radiance (W m⁻² sr⁻¹ nm⁻¹) sampled at these wavelengths.

@@ -14,7 +14,7 @@ pub struct Glass {
     pub index: Index,
     /// A pane without thickness: what it lets through goes straight on.
     pub thin: bool,
-    /// Colours what is let through; its square root at each of the two surfaces that light passes.
+    /// Colours what is let through: its square root at each of the two surfaces of a body, all of it at a pane.
     pub color: Option<Paint>,
     /// How much of it lets light through; the rest is diffuse, of the same colour.
     pub amount: f64,

@@ -148,12 +148,13 @@ impl<'s> Lobes<'s> {
         }
     }
 
-    /// How light along `to_light` (unit, away from the surface) goes to `to_eye`: `f(λ)`, per steradian.
+    /// How light goes between two directions (to the light, to the eye; units, away from the surface): `f(λ)`, per
+    /// steradian.
     #[inline]
-    pub(crate) fn response(&self, to_light: DVec3, to_eye: DVec3) -> Response {
+    pub(crate) fn response(&self, directions: impl Fn() -> (DVec3, DVec3)) -> Response {
         let response = Response { base: self.diffuse * FRAC_1_PI, ..Response::default() };
         match &self.shine {
-            Some(shine) => shine.response(response, self.normal, to_light, to_eye),
+            Some(shine) => shine.response(response, self.normal, directions()),
             None => response,
         }
     }
@@ -201,7 +202,7 @@ impl Shine<'_> {
         coat: None,
     };
 
-    fn response(&self, diffuse: Response, normal: DVec3, to_light: DVec3, to_eye: DVec3) -> Response {
+    fn response(&self, diffuse: Response, normal: DVec3, (to_light, to_eye): (DVec3, DVec3)) -> Response {
         let alpha = self.roughness * self.roughness;
         let mut response = diffuse;
         if self.metal.is_some() {
@@ -312,6 +313,8 @@ impl Gloss {
             Some(Paint::Colors(colors)) => colors.rgb(look).into_iter().fold(0.0, f64::max),
             _ => 1.0,
         };
+        // No channel reflects more than all.
+        let facing = facing.min(1.0 / tint_peak.max(1e-9));
         let coat = self.clearcoat.as_ref().map(|coat| Coat {
             strength: coat.strength * channel(coat.strength_texture.as_ref(), 0, look),
             roughness: coat.roughness * channel(coat.roughness_texture.as_ref(), 1, look),

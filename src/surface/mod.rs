@@ -100,7 +100,16 @@ impl Surface {
             Scatter::Mixed(parts) => parts.iter().any(|(_, part)| part.lets_through()),
             scatter => matches!(scatter, Scatter::Glass(_)),
         };
-        part || self.veil.is_some()
+        part || self.veil.as_ref().is_some_and(|veil| veil.coverage.is_some())
+    }
+
+    /// Whether nothing is seen through it at a place.
+    pub fn is_solid(&self, look: &Look<'_>) -> bool {
+        let glass = match &self.scatter {
+            Scatter::Mixed(parts) => parts.iter().any(|(_, part)| part.lets_through()),
+            scatter => matches!(scatter, Scatter::Glass(_)),
+        };
+        !glass && self.veil.as_ref().is_none_or(|veil| veil.share(look) >= 1.0)
     }
 
     /// The number of the medium that it encloses.

@@ -125,7 +125,7 @@ impl Colors {
 
 impl Checker {
     fn at(&self, look: &Look<'_>) -> Tint<'_> {
-        let (at, half) = (look.uv() / self.size, self.half_widths(look.footprint(0)) / self.size);
+        let (at, half) = (look.uv() / self.size, half_widths(look.footprint(0)) / self.size);
         let share = odd_share(at, half);
         if share <= 0.0 {
             Tint::Of(Cow::Borrowed(&self.even))
@@ -135,11 +135,11 @@ impl Checker {
             Tint::Between(&self.even, &self.odd, share)
         }
     }
+}
 
-    /// Half the sides of the rectangle over which the squares are averaged: the box around the footprint.
-    fn half_widths(&self, footprint: Option<Footprint>) -> DVec2 {
-        footprint.map_or(DVec2::ZERO, |of| DVec2::new(of.u.x.hypot(of.v.x), of.u.y.hypot(of.v.y)))
-    }
+/// Half the sides of the rectangle over which the squares are averaged: the box around the footprint.
+fn half_widths(footprint: Option<Footprint>) -> DVec2 {
+    footprint.map_or(DVec2::ZERO, |of| DVec2::new(of.u.x.hypot(of.v.x), of.u.y.hypot(of.v.y)))
 }
 
 /// What part of a rectangle lies in odd squares of side 1.
@@ -150,7 +150,7 @@ fn odd_share(at: DVec2, half: DVec2) -> f64 {
 
 /// The mean of the square wave that is +1 on [0, 1) and -1 on [1, 2).
 fn wave_mean(at: f64, half: f64) -> f64 {
-    if !at.is_finite() || half > 1e9 {
+    if !(at.is_finite() && half <= 1e9) {
         return 0.0;
     }
     // Its integral is a triangle wave.

@@ -9,7 +9,7 @@ use glam::DVec3;
 pub struct Veil {
     /// By the coverage of its texture.
     pub coverage: Option<Coverage>,
-    /// Seen from behind it is not there at all, and light passes from there (glTF: not double-sided).
+    /// Seen from behind it is not there at all (glTF: not double-sided). It casts its shadow to both sides.
     pub one_sided: bool,
 }
 
@@ -37,7 +37,8 @@ impl Veil {
 }
 
 impl Coverage {
-    fn at(&self, look: &Look<'_>) -> f64 {
+    /// The part of the surface that is there, 0 to 1.
+    pub fn at(&self, look: &Look<'_>) -> f64 {
         let mut alpha = self.factor;
         if let Some(texture) = &self.texture {
             alpha *= look.texel(texture)[3];

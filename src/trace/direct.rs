@@ -43,19 +43,17 @@ impl Lit<'_> {
         if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
             self.add_fill(ambient, lobes, &fill, seen, &mut arriving, gathered);
         }
-        let to_eye = seen.to_eye();
         for lamp in self.lamps {
             let Some(connection) = lamp.connect(seen.departure) else { continue };
             let k = seen.hit.rest.rest_from_lab * connection.ray.k;
             // The cosine is the receiver's, in its own rest frame.
-            let to_light = -k.x / k.t;
-            let cosine = to_light.dot(lobes.normal);
-            let above = to_light.dot(seen.spot.facet_normal);
+            let cosine = -k.x.dot(lobes.normal) / k.t;
+            let above = -k.x.dot(seen.spot.facet_normal);
             if cosine <= 0.0 || above <= 0.0 {
                 continue;
             }
             let Some(passage) = self.passage(&connection) else { continue };
-            let response = lobes.response(to_light, to_eye);
+            let response = lobes.response(|| (-k.x / k.t, seen.to_eye()));
             let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
             self.add_lamp(&light, lobes, &response, seen, &mut arriving, gathered);
         }

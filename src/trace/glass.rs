@@ -12,15 +12,12 @@
 
 use super::medium::{Inside, Light4, in_medium};
 use super::split::Parted;
-use super::{Cone, Gathered, Leg, Lit, Path, Seen, Step, scaled};
+use super::{Gathered, Leg, Lit, Path, Seen, Step, scaled};
 use crate::fresnel;
 use crate::spacetime::{FourVector, Rest, SightRay};
-use crate::surface::{Glass, Lobes, Medium, Response, Surface};
+use crate::surface::{Glass, Lobes, Look, Medium, Response, Surface, fade};
 use crate::world::Hit;
 use glam::DVec3;
-
-/// Surfaces of bodies whose distance is below this part of their size touch.
-const TOUCHING: f64 = 2e-7;
 
 /// A face between two media, one of which may be none.
 struct Face<'m> {
@@ -74,7 +71,6 @@ impl Lit<'_> {
         if seen.path.depth == 0 || amount <= 0.0 && glass.roughness >= 0.5 {
             return;
         }
-        // The reflection of a rough face fades; a ray through it stays sharp.
         if glass.thin {
             self.add_pane(glass, amount, surface, seen, gathered);
         } else {
@@ -94,7 +90,10 @@ impl Lit<'_> {
         let cosine = lobes.normal.dot(seen.to_eye()).clamp(0.0, 1.0);
         let through = 1.0 - fresnel::dielectric(cosine, glass.index.at(589.0));
         let diffuse = 1.0 - glass.amount_at(&seen.look());
-        let fill = Response { base: diffuse * through, ..Response::default() };
+        // What is not traced of the reflection of a rough face sees the fill light.
+        let white =
+            if seen.leg.inside.is_empty() { (1.0 - through) * (1.0 - fade(glass.roughness)) } else { 0.0 };
+        let fill = Response { base: diffuse * through, white, ..Response::default() };
         self.add_lobes(&lobes, fill, surface, seen, gathered);
     }
 
@@ -111,8 +110,9 @@ impl Lit<'_> {
         let normal = look.normal(surface.relief.as_ref());
         let cosine = normal.dot(seen.to_eye()).clamp(0.0, 1.0);
         let reflectance = |nm: f64| fresnel::dielectric(cosine, glass.index.at(nm));
-        let step = Step { before: seen.path.steps, part: &reflectance, shift: seen.shift };
-        let path = seen.path.filtered(&seen.nm.map(reflectance), &step);
+        let mirrored = |nm: f64| fade(glass.roughness) * reflectance(nm);
+        let step = Step { before: seen.path.steps, part: &mirrored, shift: seen.shift };
+        let path = seen.path.filtered(&seen.nm.map(mirrored), &step);
         self.reflect(normal, &path, seen, gathered);
 
         let tint = glass.color.as_ref().map(|color| color.at(&look));
@@ -159,8 +159,11 @@ impl Lit<'_> {
 
         let shift = seen.shift;
         let reflectance = |nm: f64| self.at_face(&face, seen, nm * shift).reflectance;
-        let step = Step { before: seen.path.steps, part: &reflectance, shift };
-        let reflected = seen.path.filtered(&lanes.each(|_, at| at.reflectance), &step);
+        // The mirror image in a rough face fades; that from within does not.
+        let shown = if face.near.is_none() { fade(glass.roughness) } else { 1.0 };
+        let mirrored = |nm: f64| shown * reflectance(nm);
+        let step = Step { before: seen.path.steps, part: &mirrored, shift };
+        let reflected = seen.path.filtered(&lanes.each(|_, at| shown * at.reflectance), &step);
         let alone = reflected.is_faint(self.faintest);
         if !alone {
             self.reflect(face.normal, &reflected, seen, gathered);
@@ -169,7 +172,8 @@ impl Lit<'_> {
         let part_of = |nm: f64, at: &AtFace| {
             let color = tint.as_ref().map_or(1.0, |tint| tint.at(nm).max(0.0).sqrt());
             // What is not followed goes where the rest goes.
-            let rest = if alone && at.part > 0.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 };
+            let rest =
+                if alone && at.part > 0.0 && shown >= 1.0 { 1.0 / (1.0 - at.reflectance) } else { 1.0 };
             amount * color * at.part * rest
         };
         let part = |nm: f64| part_of(nm, &self.at_face(&face, seen, nm * shift));
@@ -202,8 +206,8 @@ impl Lit<'_> {
         let omega = (hit.rest.rest_from_lab * seen.leg.wave).t;
         let shift = self.effects.shift(omega);
         let nm = scaled(seen.lanes, 1.0 / shift);
-        let departure = spot.departure(hit.rest);
-        self.meet(surface, &Seen { hit, spot, departure, omega, shift, nm, ..*seen }, gathered);
+        // Its light comes and goes on this side of the face, within the medium.
+        self.meet(surface, &Seen { hit, spot, omega, shift, nm, ..*seen }, gathered);
     }
 
     /// What is beyond a face, how far the last of the surfaces is that touch it (m, rest frame), and whether one of these
@@ -213,16 +217,21 @@ impl Lit<'_> {
             if outside { inside.with(medium) } else { inside.without(medium) }
         };
         let alone = (toggled(seen.leg.inside, medium, seen.spot.outside), 0.0, None);
-        let gap = TOUCHING * seen.spot.size;
-        let reach = gap / seen.spot.k.x.length();
+        let gap = seen.spot.grain;
+        // Along the ray it is longer by the slant, and no longer than the ray.
+        let steep = seen.spot.k.x.dot(seen.spot.facet_normal).abs().max(0.05 * seen.spot.k.x.length());
+        let reach = (gap / steep).min(0.5 * seen.hit.s);
         let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
         let mut crossed: Vec<(u32, bool)> = Vec::new();
         let mut contact = None;
         self.world.until(&ray, 2.0 * reach, |hit| {
-            match self.surfaces.get(hit.surface()) {
-                Some(surface) if !surface.lets_through() => contact = Some(hit),
-                Some(surface) => crossed.extend(surface.medium().map(|m| (m, hit.spot(&ray).outside))),
-                None => {}
+            let Some(surface) = self.surfaces.get(hit.surface()) else { return false };
+            let spot = hit.spot(&ray);
+            let own = (hit.surface() == seen.hit.surface()).then_some(medium);
+            if let Some(other) = own.or_else(|| surface.medium()) {
+                crossed.push((other, spot.outside));
+            } else if surface.is_solid(&Look { hit: &hit, spot: &spot, radius: 0.0 }) {
+                contact = Some(hit);
             }
             contact.is_some()
         });
@@ -235,7 +244,7 @@ impl Lit<'_> {
         if crossed.iter().all(|(other, _)| *other == medium) {
             return alone;
         }
-        // Left first, then entered: glass against water is no gap and no overlap.
+        // Glass against water is no gap and no overlap.
         let after = crossed.iter().fold(seen.leg.inside, |inside, &(m, outside)| toggled(inside, m, outside));
         (after, 2.0 * gap, None)
     }
@@ -341,7 +350,9 @@ impl Lit<'_> {
             let c = index * index - 1.0;
             let (p, q, r) = (c * b * b - 1.0, c * a * b, c * a * a + omega * omega - along.length_squared());
             let root = positive_root(q * q - p * r)?;
-            let solutions = [(q + root) / p, (q - root) / p].map(|normal_part| {
+            // At the speed of light in the medium one of the two is at infinity.
+            let pair = if p.abs() < 1e-12 { [r / (2.0 * q); 2] } else { [(q + root) / p, (q - root) / p] };
+            let solutions = pair.map(|normal_part| {
                 let at_face = FourVector::<Rest>::new(omega, along + normal * normal_part);
                 let inside: FourVector<Rest> = medium.rest_from_lab * (rest.inverse() * at_face);
                 let light = in_medium(medium, inside.x / inside.x.length(), inside.t, nm);
@@ -395,11 +406,10 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
-/// How many pixels wide an angle is for the observer, over the number of samples: other samples of a pixel take other
-/// wavelengths. 0 where pixels have no width.
+/// How many pixels wide an angle is for the observer; 0 where pixels have no width.
 fn pixels<const N: usize>(angle: f64, seen: &Seen<'_, N>) -> f64 {
-    let Cone { sample, pixel, .. } = seen.path.cone;
-    if pixel > 0.0 { angle * sample * sample / (2.0 * pixel * pixel * pixel) } else { 0.0 }
+    let pixel = seen.path.cone.pixel;
+    if pixel > 0.0 { angle / (2.0 * pixel) } else { 0.0 }
 }
 
 fn positive_root(squared: f64) -> Option<f64> {

@@ -59,14 +59,13 @@ pub(super) fn in_medium(medium: &Medium, direction: DVec3, omega: f64, nm: f64) 
 impl Lit<'_> {
     /// The medium in which a ray is: of those that overlap, that of the smallest body.
     pub(super) fn medium(&self, inside: &Inside) -> Option<&Medium> {
-        let media = inside.all().iter().filter_map(|medium| self.media.get(*medium as usize));
-        media.min_by(|a, b| a.volume.total_cmp(&b.volume))
+        self.medium_number(inside).and_then(|medium| self.media.get(medium as usize))
     }
 
     /// The number of the medium in which a ray is.
     pub(super) fn medium_number(&self, inside: &Inside) -> Option<u32> {
         let volume = |medium: u32| self.media.get(medium as usize).map_or(f64::INFINITY, |m| m.volume);
-        inside.all().iter().copied().min_by(|a, b| volume(*a).total_cmp(&volume(*b)))
+        inside.all().iter().copied().min_by(|a, b| volume(*a).total_cmp(&volume(*b)).then(a.cmp(b)))
     }
 
     /// Wavelength in a medium of light that the observer sees at one, and the frequency there.
@@ -82,13 +81,15 @@ impl Lit<'_> {
         s / medium.index.at(nm)
     }
 
-    /// The wave vector with which light leaves a medium that has no end.
-    pub(super) fn escaped(&self, leg: &Leg) -> FourVector {
-        if leg.inside.is_empty() {
-            return leg.wave;
-        }
-        let direction = leg.ray.k.x.normalize_or(DVec3::Z);
-        FourVector::new(leg.wave.t, direction * leg.wave.t)
+    /// The wave vector of light that comes through a medium without end, and what of it is left: all of it, and n² times
+    /// its radiance, of a medium that absorbs nothing.
+    pub(super) fn escaped(&self, leg: &Leg, lane: f64) -> (FourVector, f64) {
+        let Some(medium) = self.medium(&leg.inside) else { return (leg.wave, 1.0) };
+        let inside = medium.rest_from_lab * leg.wave;
+        let null = FourVector::<Rest>::new(inside.t, inside.x.normalize_or(DVec3::Z) * inside.t);
+        let index = medium.index.at(lane / self.effects.shift(inside.t));
+        let left = if medium.absorption.is_some() { 0.0 } else { index * index };
+        (medium.rest_from_lab.inverse() * null, left)
     }
 
     /// A sight ray that may begin within glass: there the camera looks out of a bubble without size, and `L/n²` is what
@@ -139,8 +140,13 @@ impl Lit<'_> {
             false
         });
         nearest.sort_unstable_by_key(|(medium, ..)| *medium);
-        let around = nearest.iter().filter(|(.., outside)| !outside);
-        around.fold(Inside::default(), |inside, (medium, ..)| inside.with(*medium))
+        let around = nearest.iter().filter(|(.., outside)| !outside).map(|(medium, ..)| *medium);
+        // Of what has no end the ray may never meet the surface.
+        let endless = self
+            .world
+            .endless_around(ray.event)
+            .filter_map(|surface| self.surfaces.get(surface).and_then(Surface::medium));
+        around.chain(endless).fold(Inside::default(), Inside::with)
     }
 
     /// A surface seen through the medium before it: what that absorbs is taken first.

@@ -169,7 +169,7 @@ impl<'p, const N: usize> Path<'p, N> {
     }
 
     fn is_faint(&self, faintest: f64) -> bool {
-        self.throughput.iter().all(|value| *value < faintest)
+        self.throughput.iter().all(|value| *value <= faintest)
     }
 }
 
@@ -377,12 +377,13 @@ impl Lit<'_> {
         gathered: &mut Gathered<N>,
     ) {
         for surroundings in self.surroundings {
-            let k: FourVector<Rest> = surroundings.rest_from_lab * self.escaped(leg);
+            let (escaped, left) = self.escaped(leg, lanes[0]);
+            let k: FourVector<Rest> = surroundings.rest_from_lab * escaped;
             let shift = self.effects.shift(k.t);
             let cone = (path.cone.sample / k.t, path.cone.pixel / k.t);
             let mut radiance =
                 surroundings.sky.radiance(-k.x / k.x.length(), cone, &scaled(lanes, 1.0 / shift));
-            let gain = self.effects.gain(k.t, -5);
+            let gain = self.effects.gain(k.t, -5) * left;
             for value in &mut radiance {
                 *value *= gain;
             }

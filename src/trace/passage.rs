@@ -25,10 +25,11 @@ pub(super) struct Colored<'s> {
     insides: Vec<Stretch>,
 }
 
-/// A face of glass on the way, which lets `rest + part √tint(λ)` through.
+/// A face of glass on the way, which lets `rest + part √tint(λ)` through; a pane has both its faces in one.
 #[derive(Debug)]
 struct Face<'s> {
     tint: Tint<'s>,
+    thin: bool,
     // Frequency there, in the units of the connection.
     omega: f64,
     rest: f64,
@@ -49,7 +50,8 @@ impl<'s> Passage<'s> {
 
     /// Takes from the light what a surface takes; whether nothing is left.
     fn take(&mut self, surface: &'s Surface, look: &Look<'_>) -> bool {
-        let share = surface.veil.as_ref().map_or(1.0, |veil| veil.share(look));
+        let coverage = surface.veil.as_ref().and_then(|veil| veil.coverage.as_ref());
+        let share = coverage.map_or(1.0, |coverage| coverage.at(look));
         match &surface.scatter {
             _ if share <= 0.0 => {}
             Scatter::Glass(glass) => self.take_glass(glass, share, look),
@@ -75,7 +77,8 @@ impl<'s> Passage<'s> {
         match &glass.color {
             Some(color) => {
                 let colored = self.colored.get_or_insert_default();
-                colored.faces.push(Face { tint: color.at(look), omega: k.t, rest: 1.0 - share, part });
+                let (tint, thin) = (color.at(look), glass.thin);
+                colored.faces.push(Face { tint, thin, omega: k.t, rest: 1.0 - share, part });
             }
             None => self.clear *= 1.0 - share + part,
         }
@@ -90,11 +93,16 @@ impl<'s> Passage<'s> {
 impl Colored<'_> {
     /// The sum of s that the light spends in each medium on its way from a lamp at `s_lamp`.
     fn ways(&self, s_lamp: f64) -> Vec<(u32, f64)> {
-        let mut media: Vec<u32> = self.insides.iter().map(|stretch| stretch.medium).collect();
-        media.sort_unstable();
+        let mut insides = self.insides.clone();
+        insides.sort_by(|a, b| (a.medium, a.entering).cmp(&(b.medium, b.entering)).then(a.s.total_cmp(&b.s)));
+        // An edge belongs to two triangles.
+        insides.dedup_by(|a, b| {
+            (a.medium, a.entering) == (b.medium, b.entering) && a.s - b.s <= 1e-12 * b.s.abs()
+        });
+        let mut media: Vec<u32> = insides.iter().map(|stretch| stretch.medium).collect();
         media.dedup();
         let way = |medium: u32| {
-            let of = self.insides.iter().filter(|stretch| stretch.medium == medium);
+            let of = insides.iter().filter(|stretch| stretch.medium == medium);
             let (sum, open) = of.fold((0.0, 0_i32), |(sum, open), stretch| {
                 if stretch.entering { (sum - stretch.s, open + 1) } else { (sum + stretch.s, open - 1) }
             });
@@ -139,7 +147,8 @@ impl Lit<'_> {
         for face in &colored.faces {
             let shift = self.effects.shift(omega / face.omega);
             for (value, nm) in light.iter_mut().zip(nm) {
-                *value *= face.rest + face.part * face.tint.at(nm * shift).max(0.0).sqrt();
+                let tint = face.tint.at(nm * shift).max(0.0);
+                *value *= face.rest + face.part * if face.thin { tint } else { tint.sqrt() };
             }
         }
         if colored.insides.is_empty() {

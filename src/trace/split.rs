@@ -27,6 +27,8 @@ impl Caught {
 
 /// A line's wavelength has been found when it changes by less than this part.
 const FOUND: f64 = 1e-9;
+/// Ways on which a line would be met at wavelengths as near as this (nm) are one.
+const ALIKE_NM: f64 = 0.5;
 /// Steps in which it has to be found.
 const STEPS: u32 = 12;
 /// The most wavelengths between two neighbours.
@@ -36,7 +38,7 @@ const MOST_BETWEEN: f64 = 31.0;
 pub(super) struct Parted<'f> {
     /// Its wave vector before.
     pub(super) wave: FourVector,
-    /// How far each wavelength and the next part, in pixels over samples; 0 where it is not known.
+    /// How far each wavelength and the next part, in pixels; 0 where it is not known.
     pub(super) apart: &'f [f64],
     /// Follows one wavelength.
     pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
@@ -58,13 +60,33 @@ impl Lit<'_> {
         for (i, nm) in lanes.iter().enumerate() {
             let (value, caught) = single(*nm);
             values[i] = value;
-            gathered.light.radiance[i] += value;
             all.extend(caught.into_iter().map(|caught| (*nm, caught)));
+        }
+        let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
+        let count = |apart: &f64| {
+            if *apart > 1.0 { (apart / samples).min(MOST_BETWEEN).ceil() as u32 } else { 0 }
+        };
+        let counts: [u32; N] = std::array::from_fn(|i| apart.get(i).map_or(0, count));
+        if counts.iter().all(|count| *count == 0) {
+            for (sum, value) in gathered.light.radiance.iter_mut().zip(values) {
+                *sum += value;
+            }
+        } else {
+            // With more wavelengths between them the observer's own are weighed as what they are: points of a curve.
+            let weights = Wavelengths::<N>::plain_weights();
+            gathered.light.lines +=
+                weights.iter().zip(values).map(|(weight, value)| *weight * value).sum::<DVec3>();
         }
         for pair in 0..N.saturating_sub(1) {
             let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-            let between = apart.get(pair).map_or(0.0, |apart| apart.round().min(MOST_BETWEEN)) as u32;
-            gathered.light.lines += between_two(a, b, (between, path.cone.phase), &mut |nm| single(nm).0);
+            let count = counts[pair];
+            let mut caught = Vec::new();
+            gathered.light.lines += between_two(a, b, (count, path.cone.phase), &mut |nm| {
+                let (value, lines) = single(nm);
+                caught.extend(lines.into_iter().map(|line| (nm, line)));
+                value
+            });
+            all.append(&mut caught);
         }
         if self.lines.is_empty() {
             return;
@@ -72,7 +94,7 @@ impl Lit<'_> {
         for nm in self.expected(wave) {
             all.extend(single(nm).1.into_iter().map(|caught| (nm, caught)));
         }
-        for (nm, power) in lines(&all, &mut single) {
+        for (nm, power) in lines(all, &mut single) {
             gathered.light.lines += Wavelengths::<N>::line_xyz(nm, power);
         }
     }
@@ -130,30 +152,44 @@ fn between_two(
 }
 
 /// The lines met, each at the wavelength at which light of that wavelength meets it: (nm, power).
-fn lines(all: &[(f64, Caught)], single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>)) -> Vec<(f64, f64)> {
-    let mut found: Vec<(*const Line, f64, f64)> = Vec::new();
-    for (start, first) in all {
-        // Every ray of another wavelength that met it leads there; the nearest is the surest.
-        let nearer = |(lane, other): &(f64, Caught)| {
-            other.of == first.of && (other.wavelength_nm - lane).abs() < (first.wavelength_nm - start).abs()
+fn lines(mut all: Vec<(f64, Caught)>, single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>)) -> Vec<(f64, f64)> {
+    // Every ray of another wavelength that met a line leads there. Those that would have it at the same wavelength lead to
+    // the same; the nearest is the surest.
+    let off = |(start, caught): &(f64, Caught)| (caught.wavelength_nm - start).abs();
+    all.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    let mut starts: Vec<Caught> = Vec::new();
+    for (_, caught) in all {
+        let known = |other: &Caught| {
+            other.of == caught.of && (other.wavelength_nm - caught.wavelength_nm).abs() < ALIKE_NM
         };
-        if all.iter().any(nearer) || found.iter().any(|(of, ..)| *of == first.of) {
-            continue;
+        if !starts.iter().any(known) {
+            starts.push(caught);
         }
-        let mut nm = first.wavelength_nm;
-        for _ in 0..STEPS {
-            let (_, caught) = single(nm);
-            let off = |caught: &Caught| (caught.wavelength_nm - nm).abs();
-            let same = || caught.iter().filter(|caught| caught.of == first.of);
-            let Some(next) = same().min_by(|a, b| off(a).total_cmp(&off(b))) else { break };
-            if off(next) <= FOUND * nm {
-                // Several ways of the same light (mirror images within the glass) arrive together.
-                let together = same().filter(|caught| off(caught) <= FOUND * nm);
-                found.push((first.of, nm, together.map(|caught| caught.power).sum()));
-                break;
-            }
-            nm = next.wavelength_nm;
+    }
+    let mut found: Vec<(*const Line, f64, f64)> = Vec::new();
+    for start in starts {
+        let Some((nm, power)) = settled(&start, single) else { continue };
+        if !found.iter().any(|(of, other, _)| *of == start.of && (other - nm).abs() <= 10.0 * FOUND * nm) {
+            found.push((start.of, nm, power));
         }
     }
     found.into_iter().map(|(_, nm, power)| (nm, power)).collect()
+}
+
+/// The wavelength at which a line is met by light of that wavelength, and its power.
+fn settled(start: &Caught, single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>)) -> Option<(f64, f64)> {
+    let mut nm = start.wavelength_nm;
+    for _ in 0..STEPS {
+        let (_, caught) = single(nm);
+        let off = |caught: &Caught| (caught.wavelength_nm - nm).abs();
+        let same = || caught.iter().filter(|caught| caught.of == start.of);
+        let next = same().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        if off(next) <= FOUND * nm {
+            // Several ways of the same light (mirror images within the glass) arrive together.
+            let together = same().filter(|caught| off(caught) <= FOUND * nm);
+            return Some((nm, together.map(|caught| caught.power).sum()));
+        }
+        nm = next.wavelength_nm;
+    }
+    None
 }

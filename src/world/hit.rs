@@ -32,6 +32,8 @@ pub struct Spot {
     pub outside: bool,
     /// The largest coordinates that the place was computed from, metres: its rounding is a part of them.
     pub size: f64,
+    /// Surfaces that are nearer than this touch, metres: what the form's own numbers leave open.
+    pub grain: f64,
 }
 
 impl Hit<'_> {
@@ -52,6 +54,7 @@ impl Hit<'_> {
             normal,
             outside,
             size: local.size,
+            grain: local.grain + 256.0 * f64::EPSILON * local.size,
         }
     }
 
@@ -93,6 +96,9 @@ impl Hit<'_> {
         // along = β e1 + γ e2, solved in the plane of the triangle.
         let (a, b, c) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
         let det = a * c - b * b;
+        if !(det > 0.0) {
+            return None;
+        }
         let solve = |v: DVec3| {
             let (p, q) = (v.dot(e1), v.dot(e2));
             (d1 * (c * p - b * q) + d2 * (a * q - b * p)) / det

@@ -10,7 +10,7 @@ pub use hit::{Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
 
-use crate::spacetime::{Lab, Poincare, Rest, SightRay};
+use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Line, Tree};
 
 /// Everything at rest in one frame.
@@ -39,7 +39,14 @@ impl RestFrame {
     /// [`Tree::walk`], and then all that has no end.
     #[inline]
     fn walk(&self, line: &Line, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
-        let mut limit = self.tree.walk(line, s_max, &mut visit);
+        if self.bounded as usize == self.placed.len() {
+            return self.tree.walk(line, s_max, visit);
+        }
+        self.walk_endless(line, s_max, &mut visit)
+    }
+
+    fn walk_endless(&self, line: &Line, s_max: f64, visit: &mut dyn FnMut(u32, f64) -> f64) -> f64 {
+        let mut limit = self.tree.walk(line, s_max, &mut *visit);
         for number in self.bounded..self.placed.len() as u32 {
             if limit < 0.0 {
                 break;
@@ -111,6 +118,15 @@ impl World {
     /// Whether anything stands in the way at 0 < s < `s_max`.
     pub fn blocked(&self, ray: &SightRay, s_max: f64) -> bool {
         self.frames.iter().any(|rest| rest.any(ray, s_max))
+    }
+
+    /// The surfaces of solids without end that an event is within.
+    pub fn endless_around(&self, event: Event) -> impl Iterator<Item = usize> {
+        self.frames.iter().flat_map(move |rest| {
+            let x = (rest.rest_from_lab * event).x;
+            let endless = rest.placed.iter().skip(rest.bounded as usize);
+            endless.filter(move |placed| placed.contains(x)).map(|placed| placed.surfaces as usize)
+        })
     }
 
     /// All that stands in the way at 0 < s < `s_max`, in no order, until one is enough: whether it was.

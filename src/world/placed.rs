@@ -46,8 +46,9 @@ pub struct Placed {
     pub surfaces: u32,
     /// What the rest frame's clock reads when the body's own reads zero, metres.
     pub clock_zero: f64,
-    // The largest coordinate of it.
+    // The largest coordinate of it, and how long it is; 1 m for what has no end.
     reach: f64,
+    extent: f64,
     form_from_rest: DAffine3,
     rest_from_form_normals: DMat3,
 }
@@ -65,13 +66,23 @@ impl Placed {
             surfaces,
             clock_zero: 0.0,
             reach: rest_from_form.translation.abs().max_element(),
+            extent: 1.0,
             form_from_rest,
             rest_from_form_normals,
         };
         if let Some(Bounds { lo, hi }) = placed.bounds() {
             placed.reach = placed.reach.max(lo.abs().max(hi.abs()).max_element());
+            placed.extent = (hi - lo).max_element();
         }
         form_from_rest.is_finite().then_some(placed)
+    }
+
+    /// Whether a place in the rest frame is within a solid.
+    pub(super) fn contains(&self, x: DVec3) -> bool {
+        match &self.form {
+            Form::Mesh(_) => false,
+            Form::Solid(solid) => solid.contains(self.form_from_rest.transform_point3(x)),
+        }
     }
 
     /// Its box in the rest frame; none for what has no end.
@@ -148,9 +159,9 @@ impl Placed {
                 let x = self.rest_from_form.transform_point3(facet.place);
                 let normal = self.rest_from_form_normals * facet.normal;
                 let size = x.abs().max_element().max(self.reach);
-                Local { x, facet_normal: normal, normal, size }
+                Local { x, facet_normal: normal, normal, size, grain: GRAIN * self.extent }
             }
-            _ => Local { x: DVec3::ZERO, facet_normal: DVec3::Z, normal: DVec3::Z, size: 0.0 },
+            _ => Local { x: DVec3::ZERO, facet_normal: DVec3::Z, normal: DVec3::Z, size: 0.0, grain: 0.0 },
         }
     }
 
@@ -163,13 +174,14 @@ impl Placed {
             .map(|i| mesh.normals.get(i as usize).map_or(DVec3::ZERO, |n| n.as_dvec3()));
         // The corners' coordinates may cancel, within the mesh and with its place: what is left is no measure of rounding.
         let size = |corner: DVec3| self.rest_from_form.transform_vector3(corner).abs().max_element();
-        let size = corners.map(size).into_iter().fold(0.0, f64::max)
-            + self.rest_from_form.translation.abs().max_element();
+        let own = corners.map(size).into_iter().fold(0.0, f64::max);
+        let size = own + self.rest_from_form.translation.abs().max_element();
         Local {
             x,
             facet_normal: self.rest_from_form_normals * facet,
             normal: self.rest_from_form_normals * mix(corner_normals, meeting.weights),
             size,
+            grain: GRAIN * own,
         }
     }
 
@@ -230,7 +242,12 @@ pub(super) struct Local {
     pub(super) normal: DVec3,
     /// The largest coordinates that the place was computed from.
     pub(super) size: f64,
+    /// The rounding of the form's own numbers.
+    pub(super) grain: f64,
 }
+
+/// Twice the rounding of numbers in 32 bits, as meshes have them.
+const GRAIN: f64 = 2e-7;
 
 pub(super) fn mix([a, b, c]: [DVec3; 3], (v, w): (f64, f64)) -> DVec3 {
     a + (b - a) * v + (c - a) * w
