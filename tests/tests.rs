@@ -19,6 +19,7 @@ mod glass;
 mod import;
 mod index;
 mod lamp;
+mod light_equivalence;
 mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
