@@ -20,6 +20,7 @@ mod import;
 mod index;
 mod lamp;
 mod light_equivalence;
+mod lines;
 mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
