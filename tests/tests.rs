@@ -21,6 +21,7 @@ mod index;
 mod lamp;
 mod light_equivalence;
 mod lines;
+mod lines_in_glass;
 mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
