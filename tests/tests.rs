@@ -29,6 +29,7 @@ mod movie;
 mod output;
 mod radiance;
 mod shadow;
+mod sky;
 mod solid;
 mod spectrum;
 mod support;
