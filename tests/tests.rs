@@ -31,6 +31,7 @@ mod radiance;
 mod shadow;
 mod sky;
 mod solid;
+mod solids;
 mod spectrum;
 mod support;
 mod surroundings;
