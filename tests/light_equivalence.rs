@@ -261,15 +261,21 @@ fn boosting_everything_leaves_a_divers_view_as_it_is() {
 #[test]
 fn order_of_bodies_of_glass_changes_nothing() {
     let moves = beta(0.2, 0.3, -0.1);
-    let crown = |solid: Solid| Body::of(solid, glass()).filled(Index::BK7).moving(moves);
-    let plain = |solid: Solid, n: f64| Body::of(solid, glass()).filled(Index::Constant(n)).moving(moves);
+    let crown =
+        |solid: Solid| Body::of(solid, glass()).filled(Index::BK7).at(-5.0, DVec3::ZERO).moving(moves);
+    let plain = |solid: Solid, n: f64| {
+        Body::of(solid, glass()).filled(Index::Constant(n)).at(-5.0, DVec3::ZERO).moving(moves)
+    };
     let bodies = vec![
         crown(ball(1.0, v(-0.5, 0.0, -5.0))),
         plain(ball(1.3, v(0.6, 0.2, -5.2)), 1.33),
         plain(cuboid(v(-0.4, -0.3, -5.6), v(0.3, 0.5, -4.6)), 1.8),
         plain(cuboid(v(0.3, -0.3, -5.6), v(0.9, 0.5, -4.6)), 1.2),
-        Body::of(ball(0.2, v(0.0, 0.1, -5.1)), diffuse(0.7)).moving(moves),
-        Body::of(ball(0.9, v(1.2, 0.8, -4.5)), glass()).filled(Index::WATER).moving(beta(-0.3, 0.0, 0.2)),
+        Body::of(ball(0.2, v(0.0, 0.1, -5.1)), diffuse(0.7)).at(-5.0, DVec3::ZERO).moving(moves),
+        Body::of(ball(0.9, v(1.2, 0.8, -4.5)), glass())
+            .filled(Index::WATER)
+            .at(-5.0, DVec3::ZERO)
+            .moving(beta(-0.3, 0.0, 0.2)),
         Body::of(plane(v(0.0, -1.5, 0.0), DVec3::Y), squares()),
     ];
     let lamp = Lantern::at(0.0, v(2.0, 4.0, -2.0), flat(300.0));
@@ -277,6 +283,11 @@ fn order_of_bodies_of_glass_changes_nothing() {
     stage.depth = 6;
     let eye = Eye::at(0.0, DVec3::ZERO).wide(50.0);
     let first = exposed(&stage.seen_by(&eye), 0.0);
+    // What is within others is seen: without it the picture is another.
+    let mut without = stage.clone();
+    without.bodies.remove(2);
+    let (_, others) = difference(&first, &exposed(&without.seen_by(&eye), 0.0));
+    assert!(others > 100, "{others}");
     let mut dice = Dice(12);
     for _ in 0..3 {
         for i in (1..stage.bodies.len()).rev() {

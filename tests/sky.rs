@@ -289,7 +289,7 @@ fn bodies_hide_the_stars_behind_them() {
             let across = (ray.k.x / ray.k.t).normalize().any_orthonormal_vector() * off;
             let body = Body::of(ball(1.0, DVec3::ZERO), black()).at(met.t, met.x + across).moving(moves);
             let scene = Stage::of([body]).under(Heaven::stars([star])).seen_by(&eye);
-            let cone = Cone { sample: 1e-3, pixel: 1e-3 };
+            let cone = Cone { sample: 1e-3, pixel: 1e-3, phase: 0.0 };
             let light = scene.lit().seen_within(&ray, cone, &Wavelengths::<8>::new());
             assert_eq!(light.radiance[3] == 0.0, hidden);
         }
@@ -307,7 +307,7 @@ fn boosting_a_sky_and_its_observer_changes_nothing() {
         let eye = Eye { rotation: dice.turn(), ..Eye::at(0.0, DVec3::ZERO).moving(dice.velocity(0.6)) };
         let by = dice.velocity(0.9);
         let (n, _) = place_of(&star, &sky, eye.velocity);
-        let cone = Cone { sample: 1e-2, pixel: 1e-2 };
+        let cone = Cone { sample: 1e-2, pixel: 1e-2, phase: 0.0 };
         // In the axes that the observer carries, which both have.
         let n = (eye.rotation.inverse() * n + v(0.004, -0.003, 0.001)).normalize();
         let look = |stage: &Stage, eye: &Eye| {

@@ -27,6 +27,7 @@ mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
 mod movie;
+mod open;
 mod output;
 mod radiance;
 mod shadow;

@@ -196,7 +196,8 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
         let hint = "render them one by one, or leave --out away: each has an output of its own";
         return Err(Error::fault(Place::Command, "several manifests cannot go to one folder", hint));
     }
-    let mut pool = rayon::ThreadPoolBuilder::new();
+    // Mirrors and glass are followed by recursion, at most `depth` and a hundred veils deep.
+    let mut pool = rayon::ThreadPoolBuilder::new().stack_size(16 << 20);
     if let Some(threads) = args.threads {
         pool = pool.num_threads(threads.get());
     }

@@ -65,7 +65,12 @@ impl Lit<'_> {
     /// The number of the medium in which a ray is.
     pub(super) fn medium_number(&self, inside: &Inside) -> Option<u32> {
         let volume = |medium: u32| self.media.get(medium as usize).map_or(f64::INFINITY, |m| m.volume);
-        inside.all().iter().copied().min_by(|a, b| volume(*a).total_cmp(&volume(*b)).then(a.cmp(b)))
+        let index = |medium: u32| self.media.get(medium as usize).map_or(0.0, |m| m.index.at(589.0));
+        // Of two as large the one that refracts more.
+        let order = |a: &u32, b: &u32| {
+            volume(*a).total_cmp(&volume(*b)).then(index(*b).total_cmp(&index(*a))).then(a.cmp(b))
+        };
+        inside.all().iter().copied().min_by(order)
     }
 
     /// Wavelength in a medium of light that the observer sees at one, and the frequency there.

@@ -219,6 +219,8 @@ struct Gathered<const N: usize> {
     light: Light<N>,
     // Where lines are kept apart instead of becoming XYZ.
     caught: Option<Vec<split::Caught>>,
+    // The wave vector with which the strongest part of the light has come out of glass, and how strong it is.
+    exit: (f64, FourVector),
 }
 
 impl Lit<'_> {
@@ -235,7 +237,7 @@ impl Lit<'_> {
         wavelengths: &Wavelengths<N>,
     ) -> Light<N> {
         let light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
-        let mut gathered = Gathered { light, caught: None };
+        let mut gathered = Gathered { light, caught: None, exit: (0.0, ray.k) };
         let path =
             Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
         let leg = Leg { ray: *ray, wave: ray.k, inside: Inside::default() };
@@ -271,6 +273,9 @@ impl Lit<'_> {
         path: &Path<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
+        if gathered.caught.is_some() && leg.inside.is_empty() && path.throughput[0] > gathered.exit.0 {
+            gathered.exit = (path.throughput[0], leg.wave);
+        }
         let Some(hit) = self.world.nearest(&leg.ray) else {
             return self.add_surroundings(leg, lanes, path, gathered);
         };

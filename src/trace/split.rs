@@ -54,11 +54,11 @@ impl Lit<'_> {
         parted: Parted<'_>,
     ) {
         let Parted { wave, apart, follow } = parted;
-        let mut single = |nm: f64| one(nm, path, follow);
+        let mut single = |nm: f64| one(nm, path, wave, follow);
         let mut values = [0.0; N];
         let mut all = Vec::new();
         for (i, nm) in lanes.iter().enumerate() {
-            let (value, caught) = single(*nm);
+            let (value, caught, _) = single(*nm);
             values[i] = value;
             all.extend(caught.into_iter().map(|caught| (*nm, caught)));
         }
@@ -82,7 +82,7 @@ impl Lit<'_> {
             let count = counts[pair];
             let mut caught = Vec::new();
             gathered.light.lines += between_two(a, b, (count, path.cone.phase), &mut |nm| {
-                let (value, lines) = single(nm);
+                let (value, lines, _) = single(nm);
                 caught.extend(lines.into_iter().map(|line| (nm, line)));
                 value
             });
@@ -91,32 +91,52 @@ impl Lit<'_> {
         if self.lines.is_empty() {
             return;
         }
-        for nm in self.expected(wave) {
+        for nm in self.expected(wave, &mut |nm| single(nm).2) {
             all.extend(single(nm).1.into_iter().map(|caught| (nm, caught)));
         }
-        for (nm, power) in lines(all, &mut single) {
+        for (nm, power) in lines(all, &mut |nm| single(nm).1) {
             gathered.light.lines += Wavelengths::<N>::line_xyz(nm, power);
         }
     }
 
-    /// Where lines would be seen if light went straight on: at each line's wavelength in each rest frame.
-    fn expected(&self, wave: FourVector) -> Vec<f64> {
-        let shifts = self.world.frames.iter().map(|rest| self.effects.shift((rest.rest_from_lab * wave).t));
-        let mut all: Vec<f64> =
-            shifts.flat_map(|shift| self.lines.iter().map(move |nm| nm * shift)).collect();
-        all.sort_unstable_by(f64::total_cmp);
-        all.dedup_by(|a, b| (*a - *b).abs() <= FOUND * *b);
-        all.retain(|nm| (color::SHORTEST_NM..=color::LONGEST_NM).contains(nm));
+    /// Where lines of what is at rest in each frame would be seen, in the direction in which light of that wavelength comes
+    /// out of the glass.
+    fn expected(&self, wave: FourVector, exit: &mut dyn FnMut(f64) -> FourVector) -> Vec<f64> {
+        let mut all = Vec::new();
+        for rest in &self.world.frames {
+            let shift = |wave: FourVector| self.effects.shift((rest.rest_from_lab * wave).t);
+            let mut last = f64::NEG_INFINITY;
+            for line in self.lines {
+                // Points of a broad line are followed from one another.
+                if line - last < 4.0 * ALIKE_NM {
+                    continue;
+                }
+                last = *line;
+                let mut nm = line * shift(wave);
+                for _ in 0..STEPS {
+                    if !(color::SHORTEST_NM..=color::LONGEST_NM).contains(&nm) {
+                        break;
+                    }
+                    let next = line * shift(exit(nm));
+                    if (next - nm).abs() <= FOUND * nm {
+                        all.push(next);
+                        break;
+                    }
+                    nm = next;
+                }
+            }
+        }
         all
     }
 }
 
-/// Radiance and lines of one wavelength.
+/// Radiance and lines of one wavelength, and the wave vector with which it comes out of the glass.
 fn one<const N: usize>(
     nm: f64,
     path: &Path<'_, N>,
+    wave: FourVector,
     follow: &mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
-) -> (f64, Vec<Caught>) {
+) -> (f64, Vec<Caught>, FourVector) {
     let throughput = [path.steps.map_or(1.0, |step| step.throughput(nm))];
     let path = Path {
         throughput,
@@ -127,11 +147,11 @@ fn one<const N: usize>(
         cone: path.cone,
     };
     let light = Light { radiance: [0.0], lines: DVec3::ZERO };
-    let mut gathered = Gathered { light, caught: Some(Vec::new()) };
+    let mut gathered = Gathered { light, caught: Some(Vec::new()), exit: (0.0, wave) };
     if throughput[0] > 0.0 {
         follow(nm, &path, &mut gathered);
     }
-    (gathered.light.radiance[0], gathered.caught.unwrap_or_default())
+    (gathered.light.radiance[0], gathered.caught.unwrap_or_default(), gathered.exit.1)
 }
 
 /// What the XYZ between two neighbours is beyond that of a radiance that is linear there, from some wavelengths between.
@@ -152,7 +172,7 @@ fn between_two(
 }
 
 /// The lines met, each at the wavelength at which light of that wavelength meets it: (nm, power).
-fn lines(mut all: Vec<(f64, Caught)>, single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>)) -> Vec<(f64, f64)> {
+fn lines(mut all: Vec<(f64, Caught)>, single: &mut dyn FnMut(f64) -> Vec<Caught>) -> Vec<(f64, f64)> {
     // Every ray of another wavelength that met a line leads there. Those that would have it at the same wavelength lead to
     // the same; the nearest is the surest.
     let off = |(start, caught): &(f64, Caught)| (caught.wavelength_nm - start).abs();
@@ -177,10 +197,10 @@ fn lines(mut all: Vec<(f64, Caught)>, single: &mut dyn FnMut(f64) -> (f64, Vec<C
 }
 
 /// The wavelength at which a line is met by light of that wavelength, and its power.
-fn settled(start: &Caught, single: &mut dyn FnMut(f64) -> (f64, Vec<Caught>)) -> Option<(f64, f64)> {
+fn settled(start: &Caught, single: &mut dyn FnMut(f64) -> Vec<Caught>) -> Option<(f64, f64)> {
     let mut nm = start.wavelength_nm;
     for _ in 0..STEPS {
-        let (_, caught) = single(nm);
+        let caught = single(nm);
         let off = |caught: &Caught| (caught.wavelength_nm - nm).abs();
         let same = || caught.iter().filter(|caught| caught.of == start.of);
         let next = same().min_by(|a, b| off(a).total_cmp(&off(b)))?;
