@@ -164,7 +164,7 @@ fn plate_in_any_motion_lets_light_leave_parallel_to_how_it_came() {
     assert!(met > 15, "{met}");
 }
 
-/// Extra delay (n_g - 1) L, at each wavelength its own.
+/// Extra delay `(n_g - 1) L`, at each wavelength its own.
 #[test]
 fn light_is_late_by_the_group_index() {
     let (index, thickness) = (Index::SF11, 0.4);

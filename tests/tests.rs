@@ -23,11 +23,11 @@ mod lamp;
 mod light_equivalence;
 mod lines;
 mod lines_in_glass;
+mod lost_in_glass;
 mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
 mod movie;
-mod open;
 mod output;
 mod radiance;
 mod shadow;

@@ -61,6 +61,6 @@ impl Surroundings {
             Part::Uniform(source) => Some(source),
             Part::Panorama(_) | Part::Stars(_) => None,
         });
-        uniform.flat_map(|source| source.lines())
+        uniform.flat_map(Source::lines)
     }
 }

@@ -2,11 +2,12 @@
 
 use super::{Gathered, Lit, Seen, scaled};
 use crate::lamp::{Connection, Lamp};
-use crate::spectrum::{Metal, Source};
+use crate::spectrum::Source;
 use crate::surface::{Lobes, Response, Surface};
 
 /// Light on its way from lamps to the observer, before the surface's own spectra.
-struct Arriving<const N: usize> {
+struct Arriving<'l, const N: usize> {
+    lobes: &'l Lobes<'l>,
     base: [f64; N],
     // What is reflected, and what of it takes the colour of the tint.
     reflected: Option<Reflected<N>>,
@@ -39,9 +40,9 @@ impl Lit<'_> {
         seen: &Seen<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        let mut arriving = Arriving { base: [0.0; N], reflected: None };
+        let mut arriving = Arriving { lobes, base: [0.0; N], reflected: None };
         if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
-            self.add_fill(ambient, lobes, &fill, seen, &mut arriving, gathered);
+            self.add_fill(ambient, &fill, seen, &mut arriving, gathered);
         }
         for lamp in self.lamps {
             let Some(connection) = lamp.connect(seen.departure) else { continue };
@@ -55,7 +56,7 @@ impl Lit<'_> {
             let Some(passage) = self.passage(&connection) else { continue };
             let response = lobes.response(|| (-k.x / k.t, seen.to_eye()));
             let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
-            self.add_lamp(&light, lobes, &response, seen, &mut arriving, gathered);
+            self.add_lamp(&light, &response, seen, &mut arriving, gathered);
         }
         let base = lobes.base.as_ref().map_or([0.0; N], |base| base.at_each(&seen.nm));
         let mut radiance = arriving.base;
@@ -75,16 +76,15 @@ impl Lit<'_> {
     fn add_fill<const N: usize>(
         &self,
         ambient: &Source,
-        lobes: &Lobes<'_>,
         fill: &Response,
         seen: &Seen<'_, N>,
-        arriving: &mut Arriving<N>,
+        arriving: &mut Arriving<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, lobes.metal(), &seen.nm);
+        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, &seen.nm);
         for line in ambient.lines() {
             let nm = line.wavelength_nm;
-            self.add_line(line, nm, line.power * lobes.at(fill, nm), seen, gathered);
+            self.add_line(line, nm, line.power * arriving.lobes.at(fill, nm), seen, gathered);
         }
     }
 
@@ -92,10 +92,9 @@ impl Lit<'_> {
     fn add_lamp<const N: usize>(
         &self,
         light: &FromLamp<'_>,
-        lobes: &Lobes<'_>,
         response: &Response,
         seen: &Seen<'_, N>,
-        arriving: &mut Arriving<N>,
+        arriving: &mut Arriving<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
         let doppler = light.omega / light.connection.omega;
@@ -112,7 +111,7 @@ impl Lit<'_> {
             if let Some(colored) = &light.passage.colored {
                 self.filter(colored, light.connection, light.omega, &seen.nm, &mut intensity);
             }
-            arriving.add(&intensity, factor, response, lobes.metal(), &seen.nm);
+            arriving.add(&intensity, factor, response, &seen.nm);
             for line in source.lines() {
                 // A line's power is integrated over the wavelength, which shrinks by the shift.
                 let wavelength_nm = line.wavelength_nm / shift;
@@ -120,7 +119,8 @@ impl Lit<'_> {
                 if let Some(colored) = &light.passage.colored {
                     self.filter(colored, light.connection, light.omega, &[wavelength_nm], &mut passes);
                 }
-                let power = line.power * factor / shift * passes[0] * lobes.at(response, wavelength_nm);
+                let power =
+                    line.power * factor / shift * passes[0] * arriving.lobes.at(response, wavelength_nm);
                 self.add_line(line, wavelength_nm, power, seen, gathered);
             }
         }
@@ -137,22 +137,16 @@ struct FromLamp<'l> {
     passage: &'l super::passage::Passage<'l>,
 }
 
-impl<const N: usize> Arriving<N> {
+impl<const N: usize> Arriving<'_, N> {
     #[inline]
-    fn add(
-        &mut self,
-        light: &[f64; N],
-        factor: f64,
-        response: &Response,
-        metal: Option<&Metal>,
-        nm: &[f64; N],
-    ) {
+    fn add(&mut self, light: &[f64; N], factor: f64, response: &Response, nm: &[f64; N]) {
         let base = factor * response.base;
         for (sum, value) in self.base.iter_mut().zip(light) {
             *sum += base * value;
         }
         if response.tint > 0.0 || response.white > 0.0 {
             let sums = self.reflected.get_or_insert(Reflected { tint: [0.0; N], white: [0.0; N] });
+            let metal = self.lobes.metal();
             let (tint, white) = (factor * response.tint, factor * response.white);
             for (i, value) in light.iter().enumerate() {
                 sums.tint[i] += tint * value;

@@ -46,6 +46,14 @@ struct Lanes<const N: usize> {
     all: [AtFace; N],
 }
 
+/// Which way light goes at a face: with `leaving`, away from it along the normal for `sense` 1, toward it for -1.
+#[derive(Clone, Copy)]
+struct Going {
+    leaving: FourVector<Rest>,
+    normal: DVec3,
+    sense: f64,
+}
+
 /// One solution of the dispersion relation.
 #[derive(Clone, Copy)]
 struct Wave {
@@ -282,7 +290,8 @@ impl Lit<'_> {
     ) -> AtFace {
         let near = face.leaving.x.dot(normal).abs();
         let all = AtFace { reflectance: 1.0, refracted: None, part: 0.0 };
-        let Some(far) = self.wave(face.far, face.leaving, normal, 1.0, seen, lane) else { return all };
+        let going = Going { leaving: face.leaving, normal, sense: 1.0 };
+        let Some(far) = self.wave(face.far, going, seen, lane) else { return all };
         let q = far.at_face.x.dot(normal).abs();
         let squared = |k: FourVector<Rest>| k.x.length_squared() / (k.t * k.t);
         let (n1, n2) = (squared(face.leaving), squared(far.at_face));
@@ -297,17 +306,15 @@ impl Lit<'_> {
         AtFace { reflectance, refracted: Some(far.light), part: (1.0 - reflectance) * ratio * ratio }
     }
 
-    /// The light in a medium that goes with `leaving` at a face: away from it along the normal for `sense` 1, toward it
-    /// for -1; none if it cannot pass.
+    /// The light in a medium beside a face; none if it cannot pass.
     fn wave<const N: usize>(
         &self,
         medium: Option<&Medium>,
-        leaving: FourVector<Rest>,
-        normal: DVec3,
-        sense: f64,
+        going: Going,
         seen: &Seen<'_, N>,
         lane: f64,
     ) -> Option<Wave> {
+        let Going { leaving, normal, sense } = going;
         let along = leaving.x - normal * leaving.x.dot(normal);
         let omega = leaving.t;
         let rest = &seen.hit.rest.rest_from_lab;
@@ -325,19 +332,19 @@ impl Lit<'_> {
             let light = in_medium(medium, x / x.length(), omega, nm);
             return Some(Wave { at_face: FourVector::new(omega, x), light, index });
         }
-        self.wave_in_moving(medium, (omega, along), normal, sense, seen, lane)
+        self.wave_in_moving(medium, going, seen, lane)
     }
 
     /// The same in a medium that moves relative to the face: a quadratic in the normal part of the wave vector.
     fn wave_in_moving<const N: usize>(
         &self,
         medium: &Medium,
-        (omega, along): (f64, DVec3),
-        normal: DVec3,
-        sense: f64,
+        going: Going,
         seen: &Seen<'_, N>,
         lane: f64,
     ) -> Option<Wave> {
+        let Going { leaving, normal, sense } = going;
+        let (omega, along) = (leaving.t, leaving.x - normal * leaving.x.dot(normal));
         let rest = seen.hit.rest.rest_from_lab.boost();
         let moving: FourVector<Rest> =
             rest * (medium.rest_from_lab.inverse() * FourVector::new(1.0, DVec3::ZERO));
@@ -376,7 +383,8 @@ impl Lit<'_> {
     pub(super) fn reflected_inside<const N: usize>(&self, normal: DVec3, seen: &Seen<'_, N>) -> Option<Leg> {
         let leaving = seen.hit.rest.rest_from_lab * seen.leg.wave;
         let medium = self.medium(&seen.leg.inside);
-        let arriving = |normal| self.wave(medium, leaving, normal, -1.0, seen, seen.lanes[0]);
+        let arriving =
+            |normal| self.wave(medium, Going { leaving, normal, sense: -1.0 }, seen, seen.lanes[0]);
         let toward =
             |wave: &Wave| (seen.hit.rest.rest_from_lab * wave.light.step).x.dot(seen.spot.facet_normal) < 0.0;
         let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.spot.facet_normal))?;

@@ -93,16 +93,11 @@ impl<'s> Passage<'s> {
 impl Colored<'_> {
     /// The sum of s that the light spends in each medium on its way from a lamp at `s_lamp`.
     fn ways(&self, s_lamp: f64) -> Vec<(u32, f64)> {
-        let mut insides = self.insides.clone();
-        insides.sort_by(|a, b| (a.medium, a.entering).cmp(&(b.medium, b.entering)).then(a.s.total_cmp(&b.s)));
-        // An edge belongs to two triangles.
-        insides.dedup_by(|a, b| {
-            (a.medium, a.entering) == (b.medium, b.entering) && a.s - b.s <= 1e-12 * b.s.abs()
-        });
-        let mut media: Vec<u32> = insides.iter().map(|stretch| stretch.medium).collect();
+        let mut media: Vec<u32> = self.insides.iter().map(|stretch| stretch.medium).collect();
+        media.sort_unstable();
         media.dedup();
         let way = |medium: u32| {
-            let of = insides.iter().filter(|stretch| stretch.medium == medium);
+            let of = self.insides.iter().filter(|stretch| stretch.medium == medium);
             let (sum, open) = of.fold((0.0, 0_i32), |(sum, open), stretch| {
                 if stretch.entering { (sum - stretch.s, open + 1) } else { (sum + stretch.s, open - 1) }
             });
@@ -119,12 +114,21 @@ impl Lit<'_> {
     pub(super) fn passage(&self, connection: &Connection) -> Option<Passage<'_>> {
         let mut passage = Passage::CLEAR;
         let ray = &connection.ray;
+        // An edge belongs to two triangles, and counts once.
+        let mut met: Vec<(usize, f64)> = Vec::new();
         let blocked = if self.see_through {
             self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
                 let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
                 if !surface.lets_through() {
                     return true;
                 }
+                let same = |(number, s): &(usize, f64)| {
+                    *number == hit.surface() && (s - hit.s).abs() <= 1e-12 * s.abs()
+                };
+                if met.iter().any(same) {
+                    return false;
+                }
+                met.push((hit.surface(), hit.s));
                 let spot = hit.spot(ray);
                 passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
             })

@@ -28,7 +28,9 @@ impl Caught {
 /// A line's wavelength has been found when it changes by less than this part.
 const FOUND: f64 = 1e-9;
 /// Ways on which a line would be met at wavelengths as near as this (nm) are one.
-const ALIKE_NM: f64 = 0.5;
+const ALIKE_NM: f64 = 1e-3;
+/// Points of a line that are no farther apart (nm) are found from one another.
+const BROAD_NM: f64 = 2.0;
 /// Steps in which it has to be found.
 const STEPS: u32 = 12;
 /// The most wavelengths between two neighbours.
@@ -107,27 +109,31 @@ impl Lit<'_> {
             let shift = |wave: FourVector| self.effects.shift((rest.rest_from_lab * wave).t);
             let mut last = f64::NEG_INFINITY;
             for line in self.lines {
-                // Points of a broad line are followed from one another.
-                if line - last < 4.0 * ALIKE_NM {
+                if line - last < BROAD_NM {
                     continue;
                 }
                 last = *line;
-                let mut nm = line * shift(wave);
-                for _ in 0..STEPS {
-                    if !(color::SHORTEST_NM..=color::LONGEST_NM).contains(&nm) {
-                        break;
-                    }
-                    let next = line * shift(exit(nm));
-                    if (next - nm).abs() <= FOUND * nm {
-                        all.push(next);
-                        break;
-                    }
-                    nm = next;
-                }
+                all.extend(seen_at(*line, shift(wave), &mut |nm| shift(exit(nm))));
             }
         }
         all
     }
+}
+
+/// Where a line is seen whose shift depends on where it is seen, beginning with a first shift.
+fn seen_at(line: f64, first: f64, shift: &mut dyn FnMut(f64) -> f64) -> Option<f64> {
+    let mut nm = line * first;
+    for _ in 0..STEPS {
+        if !(color::SHORTEST_NM..=color::LONGEST_NM).contains(&nm) {
+            return None;
+        }
+        let next = line * shift(nm);
+        if (next - nm).abs() <= FOUND * nm {
+            return Some(next);
+        }
+        nm = next;
+    }
+    None
 }
 
 /// Radiance and lines of one wavelength, and the wave vector with which it comes out of the glass.
