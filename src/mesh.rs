@@ -4,6 +4,7 @@
 //! range, numbers finite, attributes as long as the positions or empty.
 
 use glam::{Vec2, Vec3};
+use std::collections::BTreeMap;
 
 /// A run of triangles with one material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +41,22 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Whether its triangles close it in: every edge is passed as often one way as the other.
+    pub fn is_closed(&self) -> bool {
+        let place = |i: u32| self.positions[i as usize].to_array().map(|c| (c + 0.0).to_bits());
+        let mut passed: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
+        for [a, b, c] in self.triangles.iter().map(|triangle| triangle.map(place)) {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                if from < to {
+                    *passed.entry([from, to]).or_default() += 1;
+                } else if to < from {
+                    *passed.entry([to, from]).or_default() -= 1;
+                }
+            }
+        }
+        passed.values().all(|sum| *sum == 0)
+    }
+
     /// The material of a triangle, an index into the asset's materials.
     pub fn material_of(&self, triangle: u32) -> u32 {
         let part = self.parts.partition_point(|part| part.end <= triangle);

@@ -54,7 +54,8 @@ record! {
         color: Option<Spanned<Arc<Spectrum>>> = Placed<Reflectance>, optional, "{ rgb: 0.2 0.8 0.3 }";
         /// The way in it after which `color` is left.
         distance: Option<Spanned<f64>> = Placed<Length>, optional, "10 cm";
-        /// Whether it is a thin pane, which light goes straight through, and not the surface of something thick.
+        /// Whether it is a thin pane, which light goes straight through, and not the surface of something thick. It reflects as
+        /// one face does, and `color` is what it lets through of the rest.
         thin: bool = Switch, default(false), "on";
     }
 }
@@ -100,6 +101,15 @@ impl Kind for GlassKind {
         let keys = GlassKeys::read(node, reader)?;
         let color = match (keys.color, keys.distance) {
             (None, None) => None,
+            (Some(color), None) if keys.thin => Some(Tint { color: color.value, distance: 0.0 }),
+            (Some(_), Some(distance)) if keys.thin => {
+                let what = "a thin pane has no inside that light goes through over a distance";
+                return Err(reader.fault(
+                    &distance.place,
+                    what,
+                    "remove it: `color` is what the pane lets through",
+                ));
+            }
             (Some(color), Some(distance)) => Some(Tint { color: color.value, distance: distance.value }),
             (Some(color), None) => {
                 let what = "after how much of this glass is that colour left?";

@@ -3,7 +3,7 @@
 use super::Spanned;
 use super::light::{Amount, Luminance};
 use super::node::{Content, Node};
-use super::plain::{Count, FilePath, Part, Placed, Real, Switch, Text, whole, words};
+use super::plain::{Count, FilePath, Placed, Real, Switch, Text, whole, words};
 use super::quantity::{Instant, Written};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, record};
@@ -212,6 +212,24 @@ impl Kind for Stops {
     }
 }
 
+/// A small part of the light.
+struct Faintest;
+
+impl Kind for Faintest {
+    type Value = f64;
+    fn shape() -> Shape {
+        Shape::Number("a part of the light, from 0.000001 to 0.1")
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let part = Real::read(node, reader)?;
+        if (1e-6..=0.1).contains(&part) {
+            return Ok(part);
+        }
+        let hint = reader.typed("0.001 (from 0.000001 to 0.1)");
+        Err(reader.fault(&node.place, format!("`{part}` is out of range"), hint))
+    }
+}
+
 record! {
     /// What each picture is like.
     pub Picture, "the picture" {
@@ -221,8 +239,9 @@ record! {
         samples: u32 = Count<1, 65_536>, default(4), "16";
         /// How often light is followed, from mirror to mirror and through glass: 8 unless said.
         depth: u32 = Count<0, 64>, default(8), "4";
-        /// Light of which less than this part would reach the observer is not followed by itself: 0.001 unless said.
-        faintest: f64 = Part, default(1e-3), "0.0001";
+        /// Light of which less than this part would reach the observer is not followed by itself: 0.001 unless said, at least
+        /// 0.000001, at most 0.1. The smaller, the more of the images within glass are seen, and the longer it takes.
+        faintest: f64 = Faintest, default(1e-3), "0.0001";
         /// How many wavelengths are traced: 8, 16 (unless said), 32 or 64.
         wavelengths: u32 = Wavelengths, default(16), "32";
         /// How samples are weighed: `gaussian` (unless said), `tent` or `box`.

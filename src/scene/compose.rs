@@ -5,7 +5,7 @@ use super::models::{Chosen, Model, Models};
 use super::{Placement, Scene, WorldBuilder, light, sky, solids};
 use crate::error::Report;
 use crate::import;
-use crate::manifest::{self, LookAt, Manifest, ModelFile};
+use crate::manifest::{self, LookAt, Manifest, MaterialKind, ModelFile};
 use crate::observer::{Aim, Observer, Unaberrated};
 use crate::spacetime::{Boost, Circle, Course, Event, Velocity, Worldline};
 use crate::spectrum::{Beyond, Source};
@@ -130,6 +130,20 @@ impl Gathered {
         }
         let volume = (bounds.hi - bounds.lo).element_product();
         self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
+        let glass = self.surfaces[first_surface as usize..].iter().any(|s| s.medium().is_some());
+        let open = |instance: &&import::Instance| {
+            chosen.contains(instance.node) && !model.asset.meshes[instance.mesh].is_closed()
+        };
+        if let (true, Some(instance)) = (glass, model.asset.instances.iter().find(open)) {
+            let name = &model.asset.meshes[instance.mesh].name;
+            let what =
+                format!("the mesh `{name}` is of glass and is not closed: it has no inside to go through");
+            report.warn(
+                body.place.clone(),
+                what,
+                "close it in the model, or use glass: { index: 1.5, thin: on }",
+            );
+        }
         let lights =
             model.asset.lights.iter().filter(|light| chosen.contains(light.node) && reference.lights);
         self.lamps.extend(lights.map(|light| light::from_file(light, placement, rest_from_asset)));
@@ -194,7 +208,16 @@ fn surfaces(
             instead[i] = Some(material);
         }
     }
+    // One material for the whole body is one surface: of glass it has one inside, whatever its file calls the faces.
+    let whole = body.material.as_deref().filter(|material| !matches!(material.kind, MaterialKind::Imported));
+    let whole = whole.map(|material| workshop.surface(material, None, owner, report));
     let surface = |(file, instead): (&import::Material, Option<&manifest::Material>)| match instead {
+        Some(material) if body.material.as_deref().is_some_and(|of| std::ptr::eq(of, material)) => {
+            match &whole {
+                Some(surface) => surface.clone(),
+                None => workshop.surface(material, Some(file), owner, report),
+            }
+        }
         Some(material) => workshop.surface(material, Some(file), owner, report),
         None => workshop.imported(file, Beyond::MEAN, owner),
     };

@@ -144,20 +144,21 @@ impl Workshop {
             report.fault(glass.place.clone(), what, "glass: BK7");
             return Surface::new(Scatter::Absorb);
         };
-        if let (true, Some(_)) = (glass.thin, &glass.color) {
-            let what = "a thin pane has no inside that could colour light over a distance";
-            report.fault(glass.place.clone(), what, "remove `thin: on`, or `color` and `distance`");
-        }
-        let absorption = glass.color.as_ref().map(|tint| Absorption {
-            left: reflectance(&tint.color, Beyond::MEAN, owner.place, report),
-            distance: tint.distance,
-        });
+        let left = glass
+            .color
+            .as_ref()
+            .map(|tint| (reflectance(&tint.color, Beyond::MEAN, owner.place, report), tint.distance));
+        let (color, absorption) = match left {
+            Some((left, _)) if glass.thin => (Some(Paint::Even(left)), None),
+            Some((left, distance)) => (None, Some(Absorption { left, distance })),
+            None => (None, None),
+        };
         let medium = self.medium(index, absorption, owner);
         Surface::new(Scatter::Glass(Box::new(Glass {
             medium,
             index,
             thin: glass.thin,
-            color: None,
+            color,
             amount: 1.0,
             amount_texture: None,
             roughness: 0.0,

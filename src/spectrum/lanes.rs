@@ -3,7 +3,6 @@
 use super::{D65, Reflectance};
 use crate::color::{self, LUMENS_PER_WATT};
 use glam::{DMat3, DVec3};
-use std::sync::LazyLock;
 
 /// Shortest and longest of the sampled range, nm.
 const RANGE_NM: (f64, f64) = (400.0, 700.0);
@@ -45,19 +44,6 @@ impl<const N: usize> Wavelengths<N> {
             (1.0 - ((held - nm[i]) / step).abs()).max(0.0)
         };
         (nm, std::array::from_fn(|i| color::xyz_of(|at| hat(i, at))))
-    }
-
-    /// The weights without the correction: those of a spectrum that is linear between the wavelengths.
-    pub(crate) fn plain_weights() -> &'static [DVec3] {
-        static PLAIN: LazyLock<[Vec<DVec3>; 4]> = LazyLock::new(|| {
-            [
-                Wavelengths::<8>::hats().1.to_vec(),
-                Wavelengths::<16>::hats().1.to_vec(),
-                Wavelengths::<32>::hats().1.to_vec(),
-                Wavelengths::<64>::hats().1.to_vec(),
-            ]
-        });
-        PLAIN.iter().find(|weights| weights.len() == N).map_or(&[], Vec::as_slice)
     }
 
     /// XYZ (cd/m²) of a spectral radiance (W m⁻² sr⁻¹ nm⁻¹) sampled at these wavelengths.

@@ -81,10 +81,15 @@ impl Lit<'_> {
         arriving: &mut Arriving<'_, N>,
         gathered: &mut Gathered<N>,
     ) {
-        arriving.add(&ambient.at_each(&seen.nm), 1.0, fill, &seen.nm);
+        // In a medium the light that fills it is n² times as bright.
+        let dense = self.medium(&seen.leg.inside).map_or(1.0, |medium| {
+            let (nm, _) = self.local(medium, seen.leg.wave, seen.lanes[0]);
+            medium.index.at(nm) * medium.index.at(nm)
+        });
+        arriving.add(&ambient.at_each(&seen.nm), dense, fill, &seen.nm);
         for line in ambient.lines() {
             let nm = line.wavelength_nm;
-            self.add_line(line, nm, line.power * arriving.lobes.at(fill, nm), seen, gathered);
+            self.add_line(line, nm, dense * line.power * arriving.lobes.at(fill, nm), seen, gathered);
         }
     }
 

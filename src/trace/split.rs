@@ -33,7 +33,9 @@ const ALIKE_NM: f64 = 1e-3;
 const BROAD_NM: f64 = 2.0;
 /// Steps in which it has to be found.
 const STEPS: u32 = 12;
-/// The most wavelengths between two neighbours.
+/// The fewest wavelengths between two neighbours, if there are any: the colour functions bend.
+const LEAST_BETWEEN: f64 = 3.0;
+/// The most.
 const MOST_BETWEEN: f64 = 31.0;
 
 /// Light that is about to be parted.
@@ -66,7 +68,7 @@ impl Lit<'_> {
         }
         let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
         let count = |apart: &f64| {
-            if *apart > 1.0 { (apart / samples).min(MOST_BETWEEN).ceil() as u32 } else { 0 }
+            if *apart > 1.0 { (apart / samples).clamp(LEAST_BETWEEN, MOST_BETWEEN).ceil() as u32 } else { 0 }
         };
         let counts: [u32; N] = std::array::from_fn(|i| apart.get(i).map_or(0, count));
         if counts.iter().all(|count| *count == 0) {
@@ -74,21 +76,19 @@ impl Lit<'_> {
                 *sum += value;
             }
         } else {
-            // With more wavelengths between them the observer's own are weighed as what they are: points of a curve.
-            let weights = Wavelengths::<N>::plain_weights();
-            gathered.light.lines +=
-                weights.iter().zip(values).map(|(weight, value)| *weight * value).sum::<DVec3>();
-        }
-        for pair in 0..N.saturating_sub(1) {
-            let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-            let count = counts[pair];
-            let mut caught = Vec::new();
-            gathered.light.lines += between_two(a, b, (count, path.cone.phase), &mut |nm| {
+            let mut between = |nm: f64| {
                 let (value, lines, _) = single(nm);
-                caught.extend(lines.into_iter().map(|line| (nm, line)));
+                all.extend(lines.into_iter().map(|line| (nm, line)));
                 value
-            });
-            all.append(&mut caught);
+            };
+            gathered.light.lines += ends(lanes, &values);
+            for (pair, count) in counts.iter().enumerate().take(N - 1) {
+                let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
+                gathered.light.lines += match count {
+                    0 => linear(a, b),
+                    _ => sampled((a.0, b.0), (*count, path.cone.phase), &mut between),
+                };
+            }
         }
         if self.lines.is_empty() {
             return;
@@ -160,21 +160,26 @@ fn one<const N: usize>(
     (gathered.light.radiance[0], gathered.caught.unwrap_or_default(), gathered.exit.1)
 }
 
-/// What the XYZ between two neighbours is beyond that of a radiance that is linear there, from some wavelengths between.
-fn between_two(
-    a: (f64, f64),
-    b: (f64, f64),
-    (count, phase): (u32, f64),
-    at: &mut dyn FnMut(f64) -> f64,
-) -> DVec3 {
-    let step = (b.0 - a.0) / f64::from(count.max(1));
-    let more = |i: u32| {
-        let share = (f64::from(i) + phase) / f64::from(count);
-        let nm = a.0 + (b.0 - a.0) * share;
-        let more = at(nm) - (a.1 + (b.1 - a.1) * share);
-        color::matching(nm) * (more * step * LUMENS_PER_WATT)
+/// XYZ of what lies before the first wavelength and after the last, where the radiance goes on.
+fn ends<const N: usize>(lanes: &[f64; N], values: &[f64; N]) -> DVec3 {
+    let hold = |from: f64, to: f64, value: f64| linear((from, value), (to, value));
+    hold(color::SHORTEST_NM, lanes[0], values[0]) + hold(lanes[N - 1], color::LONGEST_NM, values[N - 1])
+}
+
+/// XYZ of a radiance that is linear between two wavelengths.
+fn linear(a: (f64, f64), b: (f64, f64)) -> DVec3 {
+    let steps = ((b.0 - a.0) / 5.0).ceil().max(1.0) as u32;
+    sampled((a.0, b.0), (steps, 0.5), &mut |nm| a.1 + (b.1 - a.1) * (nm - a.0) / (b.0 - a.0))
+}
+
+/// XYZ of a radiance between two wavelengths, from as many evenly spaced ones, the first `phase` of a step in.
+fn sampled((from, to): (f64, f64), (count, phase): (u32, f64), at: &mut dyn FnMut(f64) -> f64) -> DVec3 {
+    let step = (to - from) / f64::from(count);
+    let one = |i: u32| {
+        let nm = from + step * (f64::from(i) + phase);
+        color::matching(nm) * (at(nm) * step * LUMENS_PER_WATT)
     };
-    (0..count).map(more).sum()
+    (0..count).map(one).sum()
 }
 
 /// The lines met, each at the wavelength at which light of that wavelength meets it: (nm, power).
