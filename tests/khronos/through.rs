@@ -23,7 +23,7 @@ fn thin_pane_lets_through_straight_on_what_it_does_not_reflect() {
 }
 
 /// Reflections within the ball are followed, however faint.
-const ALL: &str = "picture: { depth: 40, faintest: 0 }";
+const ALL: &str = "picture: { depth: 40, faintest: 0.000001 }";
 
 /// `volume.glb`: what is left of light after its real way through the ball, which is not the file's `thicknessFactor`.
 #[test]
@@ -77,7 +77,7 @@ fn on_screen(entry: DVec2, along: DVec2, n: f64) -> f64 {
 #[test]
 fn dispersion_bends_each_wavelength_by_its_own_index() {
     // What is reflected is not followed: its part goes where the rest goes, with or without a pattern on the screen.
-    let direct = "picture: { faintest: 0.3 }";
+    let direct = "picture: { faintest: 0.1 }";
     let pattern = stage("dispersion", "", &[], direct);
     let plain = ", materials: { Screen: { emission: { luminance: 100 cd/m2 } } }";
     let plain = stage("dispersion", plain, &[], direct);
