@@ -5,7 +5,7 @@ use crate::manifest::Manifest;
 use crate::plan::Plan;
 use crate::render;
 use crate::scene::Scene;
-use crate::surface::{Scatter, Surface};
+use crate::surface::{Scatter, Surface, fade};
 use crate::world::{Form, Placed};
 use std::path::Path;
 
@@ -17,6 +17,24 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
         text += &format!("  {what:<14} {how_much}\n");
     }
     super::print(&text)
+}
+
+/// Whether a mirror image is traced in it.
+fn mirrors(surface: &Surface) -> bool {
+    match &surface.scatter {
+        Scatter::Mirror(_) => true,
+        Scatter::Metal(polish) => fade(polish.roughness) > 0.0,
+        Scatter::Gloss(gloss) => fade(gloss.roughness) > 0.0,
+        _ => false,
+    }
+}
+
+fn glow_needs(shining: usize) -> String {
+    match shining {
+        0 => "no surface".to_owned(),
+        1 => "1 surface: it is seen, and lights nothing else".to_owned(),
+        many => format!("{many} surfaces: they are seen, and light nothing else"),
+    }
 }
 
 fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
@@ -31,13 +49,23 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     meshes.sort_unstable();
     meshes.dedup();
     let surfaces = || scene.surfaces.iter().flat_map(Surface::all);
-    let mirrors = surfaces().any(|surface| matches!(surface.scatter, Scatter::Mirror(_)));
+    let mirrors = surfaces().any(mirrors);
+    let shining = surfaces().filter(|surface| surface.glow.is_some()).count();
+    let dispersing = scene.media.iter().any(|medium| medium.index.disperses());
+    let glass = match (surfaces().any(|surface| matches!(surface.scatter, Scatter::Glass(_))), dispersing) {
+        (false, _) => "none",
+        (true, false) => "refracts all wavelengths alike",
+        (true, true) => "parts the colours: each wavelength is followed by itself",
+    };
     let lines = !scene.lines.is_empty();
     let sampling = &plan.sampling;
     let mut needs = vec![
         ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),
         ("triangles", format!("{shown} shown, {} meshes with a tree each", meshes.len())),
         ("lamps", format!("{}, each with shadows", scene.lamps.len())),
+        ("shining", glow_needs(shining)),
+        ("sky", format!("{} surroundings", scene.surroundings.len())),
+        ("glass", glass.to_owned()),
         ("mirrors", if mirrors { format!("followed {} deep", scene.depth) } else { "none".to_owned() }),
         (
             "light",
