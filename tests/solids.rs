@@ -5,6 +5,9 @@ use crate::support::{
     edge, first, flat, frequency, glowing, is_bright, light_from, light_to, look, near, plane, v,
 };
 use glam::{DAffine3, DQuat, DVec3};
+use terrell::exposure::{Sampling, expose};
+use terrell::film::Reconstruction;
+use terrell::lamp::Beam;
 use terrell::scene::Scene;
 use terrell::solid::{Shape, Solid};
 use terrell::spacetime::{Event, FourVector, SightRay};
@@ -236,4 +239,39 @@ fn moving_ball_is_shaded_by_its_own_normals() {
         let expected = doppler.powi(3) * (-there.dot(normal)).max(0.0) / std::f64::consts::PI;
         near(look(&scene, &ray).radiance[5] * omega.powi(5), expected, 1e-10);
     }
+}
+
+/// A checkerboard to the horizon, run over at 0.99 c: four samples a pixel show what 256 show, with all of its contrast, and
+/// what changes from one picture to the next is what moves.
+#[test]
+fn checkerboard_to_the_horizon_neither_blurs_nor_crawls_at_099_c() {
+    let checker = Checker { size: 1.0, even: Reflectance::Constant(0.9), odd: Reflectance::Constant(0.05) };
+    let board = plane(v(0.0, -1.5, 0.0), DVec3::Y);
+    let board = Body::of(board, Surface::new(Scatter::Diffuse(Paint::Checker(Box::new(checker)))));
+    let axis = v(-1.0, -2.0, -1.0) / 6.0_f64.sqrt();
+    let sun = Lantern::at(0.0, DVec3::ZERO, black_body(5600.0)).with(Beam::Sun { axis });
+    let eye = Eye::at(0.0, DVec3::ZERO).moving(beta(0.0, 0.0, -0.99)).toward(v(0.0, -0.35, -1.0)).wide(70.0);
+    let scene = Stage::of([board]).lit_by([sun]).seen_by(&eye);
+    // The eye, by brightness: the searchlight makes the middle a thousand times as bright as the rim.
+    let seen = |tau: f64, samples: u32| -> Vec<f64> {
+        let (width, height) = (96, 54);
+        let reconstruction = Reconstruction::default();
+        let sampling = Sampling { width, height, samples, reconstruction, wavelengths: 8 };
+        let negative = expose(&scene, &scene.observer.view(tau, width, height), &sampling);
+        negative.xyz.iter().map(|xyz| libm::log(1e-6 + f64::from(xyz[1]))).collect()
+    };
+    let mean = |of: &dyn Fn(usize) -> f64| (0..96 * 54).map(of).sum::<f64>() / f64::from(96 * 54);
+    let spread = |a: &[f64]| {
+        let middle = mean(&|i| a[i]);
+        mean(&|i| (a[i] - middle) * (a[i] - middle)).sqrt()
+    };
+    let (few, many) = ([seen(0.0, 4), seen(0.02, 4)], [seen(0.0, 256), seen(0.02, 256)]);
+    let error = mean(&|i| (few[0][i] - many[0][i]).powi(2)).sqrt();
+    let crawl = mean(&|i| ((few[1][i] - few[0][i]) - (many[1][i] - many[0][i])).powi(2)).sqrt();
+    let motion = mean(&|i| (many[1][i] - many[0][i]).powi(2)).sqrt();
+    let contrast = spread(&few[0]) / spread(&many[0]);
+    println!("error {error}, contrast {contrast}, crawl {crawl} of {motion}");
+    assert!((contrast - 1.0).abs() < 0.01, "{contrast}");
+    assert!(error < 0.15 * spread(&many[0]), "{error} of {}", spread(&many[0]));
+    assert!(crawl < 0.4 * motion, "{crawl} of {motion}");
 }

@@ -2,7 +2,7 @@
 //!
 //! Nothing is made of triangles: a lens keeps its normals, a plane has no end, and nothing is lost between facets.
 //! A solid is a list of placed shapes, its leaves, and an expression over them; a line is inside each leaf
-//! along one span at most, and [`sweep`] counts its way through the ends of these spans.
+//! along one span at most, and `sweep` counts its way through the ends of these spans.
 
 mod span;
 mod surface;
