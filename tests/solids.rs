@@ -226,7 +226,7 @@ fn moving_ball_is_shaded_by_its_own_normals() {
     let surface = diffuse(1.0);
     let into = terrell::spacetime::Poincare::<terrell::spacetime::Rest>::to_moving(moves, Event::ORIGIN);
     let sun = dice.direction();
-    let lamp = Lantern::at(0.0, DVec3::ZERO, flat(1.0)).with(terrell::lamp::Beam::Sun { axis: sun });
+    let lamp = Lantern::at(0.0, DVec3::ZERO, flat(1.0)).with(Beam::Sun { axis: sun });
     let scene: Scene =
         Stage::of([Body::of(ball(1.5, DVec3::ZERO), surface).moving(moves)]).lit_by([lamp]).scene();
     let doppler = frequency(moves, sun);
