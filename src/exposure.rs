@@ -45,15 +45,15 @@ fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) 
     let offsets = sampling.reconstruction.offsets(sampling.samples);
     let phases: Vec<f64> = (0..sampling.samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect();
     let share = 1.0 / f64::from(sampling.samples);
+    let spacing = share.sqrt();
     let expose_pixel = |column: usize, row: usize| {
         let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
         for (offset, phase) in offsets.iter().zip(&phases) {
             let place = centre + *offset;
-            let ray = view.ray(place);
-            let cone = Cone { phase: *phase, ..view.cone(place, &ray, sampling.samples) };
-            let light = lit.seen_within(&ray, cone, &wavelengths);
+            let (ray, cone) = view.sight(place, spacing);
+            let light = lit.seen_within(&ray, Cone { phase: *phase, ..cone }, &wavelengths);
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
                 *sum += value;
             }

@@ -96,23 +96,26 @@ impl View {
 
     /// The sight ray of a place in the picture, k·u = 1.
     pub fn ray(&self, pixel: DVec2) -> SightRay {
-        let ray = self.tetrad.sight_ray(self.direction(pixel));
-        match self.seer {
-            Some(seer) => SightRay { k: ray.k * (1.0 / ray.k.dot(seer)), ..ray },
-            None => ray,
-        }
+        self.sight(pixel, 1.0).0
     }
 
-    /// How wide the sight ray of a place is, of `samples` in each pixel: half the distance between neighbours.
+    /// The sight ray of a place, k·u = 1, and how wide it is among samples that are `spacing` pixels apart.
     #[inline]
-    pub fn cone(&self, pixel: DVec2, ray: &SightRay, samples: u32) -> Cone {
-        let from_centre = (pixel - 0.5 * self.size) * (2.0 * self.half_width / self.size.x);
-        let cosine = 1.0 / (1.0 + from_centre.length_squared()).sqrt();
+    pub fn sight(&self, pixel: DVec2, spacing: f64) -> (SightRay, Cone) {
+        let direction = self.direction(pixel);
+        let ray = self.tetrad.sight_ray(direction);
         // A pixel's solid angle is its area on the plane at distance 1, times cos³.
-        let pixel = self.half_width / self.size.x * cosine * cosine.sqrt();
-        // With aberration switched off the angle is seen by those beside whom the light has another frequency.
-        let pixel = self.seer.map_or(pixel, |_| pixel * ray.k.dot(self.tetrad.velocity()));
-        Cone { sample: pixel / f64::from(samples).sqrt(), pixel, phase: 0.0 }
+        let cosine = -direction.z;
+        let half = self.half_width / self.size.x * cosine * cosine.sqrt();
+        let cone = |half: f64| Cone { sample: half * spacing, pixel: half, phase: 0.0 };
+        match self.seer {
+            // With aberration switched off the angle is seen by those beside whom the light has another frequency.
+            Some(seer) => {
+                let scale = 1.0 / ray.k.dot(seer);
+                (SightRay { k: ray.k * scale, ..ray }, cone(half * scale))
+            }
+            None => (ray, cone(half)),
+        }
     }
 
     /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.

@@ -105,8 +105,8 @@ fn gathered(stage: &Stage, eye: &Eye, toward: DVec3) -> ([f64; 16], DVec3) {
     for i in 0..size * fine * size * fine {
         let at = DVec2::new(f64::from(i % (size * fine)) + 0.5, f64::from(i / (size * fine)) + 0.5);
         let at = at / f64::from(fine);
-        let ray = view.ray(at);
-        let light = lit.seen_within(&ray, view.cone(at, &ray, 1), &wavelengths);
+        let (ray, cone) = view.sight(at, 1.0);
+        let light = lit.seen_within(&ray, cone, &wavelengths);
         let cosine = -view.direction(at).z;
         let solid = width * width * cosine * cosine * cosine;
         for (sum, value) in sum.iter_mut().zip(light.radiance) {
