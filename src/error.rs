@@ -208,3 +208,16 @@ pub fn nearest_name<'a>(written: &str, known: impl IntoIterator<Item = &'a str>)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
+
+/// The lines of a table that say something, without blanks around them, and at which byte of the text each begins: no
+/// empty ones, no comments (`#`), and no mark of byte order.
+pub(crate) fn table_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut end = 0;
+    text.split_inclusive('\n').filter_map(move |line| {
+        let begins = line.trim_start_matches('\u{feff}').trim_start();
+        let start = end + (line.len() - begins.len());
+        end += line.len();
+        let kept = begins.trim_end();
+        (!kept.is_empty() && !kept.starts_with('#')).then_some((start, kept))
+    })
+}

@@ -4,7 +4,7 @@ use super::node::{Content, Node};
 use super::plain::FilePath;
 use super::reader::{Read, Reader, Reported};
 use super::record::{Kind, Shape};
-use crate::error::Place;
+use crate::error::{Place, table_lines};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -92,14 +92,8 @@ fn csv(node: &Node, reader: &mut Reader<'_>) -> Read<Vec<Row>> {
             return Err(reader.fault(&node.place, what, "paths are relative to the manifest's folder"));
         }
     };
-    let (mut rows, mut sound, mut start) = (Vec::new(), true, 0);
-    for line in text.split_inclusive('\n') {
-        let kept = line.trim_start_matches('\u{feff}').trim();
-        let from = start + (line.len() - line.trim_start_matches('\u{feff}').trim_start().len());
-        start += line.len();
-        if kept.is_empty() || kept.starts_with('#') {
-            continue;
-        }
+    let (mut rows, mut sound) = (Vec::new(), true);
+    for (from, kept) in table_lines(&text) {
         let place = || Place::Text { path: path.clone(), text: text.clone(), span: from..from + kept.len() };
         let numbers: Option<Vec<f64>> = kept.split(',').map(|cell| cell.trim().parse().ok()).collect();
         match numbers.as_deref() {

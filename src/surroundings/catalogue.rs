@@ -1,7 +1,7 @@
 //! Star catalogues: CSV files.
 
 use super::stars::{COOLEST_K, HOTTEST_K, MOST_STARS, Star};
-use crate::error::{Place, Report};
+use crate::error::{Place, Report, table_lines};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -28,14 +28,8 @@ const COLUMNS: [(&str, RangeInclusive<f64>, &str); 4] = [
 /// None when something is wrong; what, is in the report.
 pub fn parse_catalogue(path: &Path, text: &Arc<str>, report: &mut Report) -> Option<Vec<Star>> {
     let already = report.faults.len();
-    let (mut stars, mut start, mut is_first) = (Vec::new(), 0, true);
-    for line in text.split_inclusive('\n') {
-        let kept = line.trim_start_matches('\u{feff}').trim();
-        let from = start + (line.len() - line.trim_start_matches('\u{feff}').trim_start().len());
-        start += line.len();
-        if kept.is_empty() || kept.starts_with('#') {
-            continue;
-        }
+    let (mut stars, mut is_first) = (Vec::new(), true);
+    for (from, kept) in table_lines(text) {
         let is_heading = is_first && kept.split(',').all(|cell| cell.trim().parse::<f64>().is_err());
         is_first = false;
         if is_heading {
