@@ -1,46 +1,20 @@
 //! Only relative motion counts: the same picture from every frame.
 
 use crate::support::{
-    Body, Dice, Eye, Lantern, Stage, beta, black_body, boosted, built, coloured, cube, diffuse, flat,
-    glowing, icosphere, line, mirror, pixel_centre, square, v,
+    Body, Dice, Eye, Lantern, Stage, beta, black_body, boosted, built, coloured, cube, difference, diffuse,
+    exposed, flat, glowing, icosphere, line, mirror, square, v,
 };
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use std::sync::Arc;
 use terrell::lamp::Beam;
 use terrell::observer::Aim;
-use terrell::scene::{Placement, Scene};
+use terrell::scene::Placement;
 use terrell::spacetime::{Circle, Course, Event, Poincare, Velocity};
-use terrell::spectrum::{Beyond, Source, Wavelengths};
+use terrell::spectrum::{Beyond, Source};
 use terrell::surface::{Colors, Paint, Scatter, Surface};
 use terrell::triangles::Triangles;
 
 const SIZE: (u32, u32) = (80, 60);
-
-/// A picture in full precision, pixel by pixel.
-fn exposed(scene: &Scene, tau: f64) -> Vec<DVec3> {
-    let (width, height) = SIZE;
-    let view = scene.observer.view(tau, width, height);
-    let wavelengths = Wavelengths::<16>::new();
-    let lit = scene.lit();
-    let at = |number: usize| {
-        let light = lit.seen(&view.ray(pixel_centre(number, width)), &wavelengths);
-        wavelengths.xyz(&light.radiance) + light.lines
-    };
-    (0..(width * height) as usize).into_par_iter().map(at).collect()
-}
-
-/// The largest relative difference of pixels, and how many of them differ by more than a part in 10,000: those that
-/// an edge passes.
-fn difference(a: &[DVec3], b: &[DVec3]) -> (f64, usize) {
-    let mean = a.iter().map(|xyz| xyz.y).sum::<f64>() / a.len() as f64;
-    let (mut worst, mut others) = (0.0_f64, 0);
-    for (p, q) in a.iter().zip(b) {
-        let part = (p - q).length() / (p.length() + 1e-3 * mean);
-        if part < 1e-4 { worst = worst.max(part) } else { others += 1 }
-    }
-    (worst, others)
-}
 
 fn painted() -> Surface {
     let beyond = Beyond::MEAN;
@@ -135,13 +109,13 @@ fn boosting_everything_leaves_the_picture_as_it_is() {
     for fast in [0.5, 0.8, 0.9] {
         let stage = props.stage(&mut dice, fast);
         for (eye, tau) in eyes(&mut dice) {
-            let original = exposed(&stage.seen_by(&eye), tau);
+            let original = exposed::<16>(&stage.seen_by(&eye), tau, SIZE);
             let lit = original.iter().filter(|xyz| xyz.y > 0.0).count();
             assert!(lit * 8 > pixels, "only {lit} pixels are lit");
             for b in [0.5, 0.9, 0.99] {
                 let by = dice.velocity(b);
                 let moved = boosted::stage(by, &stage).seen_by(&boosted::eye(by, &eye));
-                let (part, edges) = difference(&original, &exposed(&moved, tau));
+                let (part, edges) = difference(&original, &exposed::<16>(&moved, tau, SIZE));
                 (worst, others, pictures) = (worst.max(part), others + edges, pictures + 1);
                 assert!(edges * 1000 < pixels, "{edges} pixels differ, boosted by {b}");
             }
@@ -160,7 +134,7 @@ fn flying_camera_equals_flying_world() {
     still.lamps.iter_mut().for_each(|lamp| lamp.velocity = Velocity::REST);
     let eye = Eye::at(0.0, DVec3::ZERO).wide(80.0);
     for velocity in [beta(0.0, 0.0, -0.8), beta(0.3, 0.2, -0.5), beta(-0.6, 0.0, 0.1)] {
-        let flying_camera = exposed(&still.seen_by(&eye.moving(velocity)), 0.0);
+        let flying_camera = exposed::<16>(&still.seen_by(&eye.moving(velocity)), 0.0, SIZE);
         // The same rest frames, axes and clocks: each origin is the event that was the still body's at time t', place x'.
         let mut flying = still.clone();
         let fly = |origin: &mut Event, moves: &mut Velocity| {
@@ -171,7 +145,7 @@ fn flying_camera_equals_flying_world() {
             fly(origin, velocity);
         }
         flying.lamps.iter_mut().for_each(|lamp| fly(&mut lamp.origin, &mut lamp.velocity));
-        let flying_world = exposed(&flying.seen_by(&eye), 0.0);
+        let flying_world = exposed::<16>(&flying.seen_by(&eye), 0.0, SIZE);
         let (worst, others) = difference(&flying_camera, &flying_world);
         println!("flying camera and world differ by {worst:e}, {others} other pixels");
         assert!(worst < 1e-10 && others <= 2, "{worst:e}, {others}");
@@ -189,7 +163,7 @@ fn slow_motion_is_classical() {
         let slow = |velocity: Velocity| Velocity::from_beta(velocity.beta() * pace).unwrap();
         stage.bodies.iter_mut().for_each(|body| body.placement.velocity = slow(body.placement.velocity));
         stage.lamps.iter_mut().for_each(|lamp| lamp.velocity = slow(lamp.velocity));
-        exposed(&stage.seen_by(&eye.moving(beta(0.3 * pace, -0.2 * pace, 0.4 * pace))), 0.0)
+        exposed::<16>(&stage.seen_by(&eye.moving(beta(0.3 * pace, -0.2 * pace, 0.4 * pace))), 0.0, SIZE)
     };
     let rest = at_pace(0.0);
     let change = |pace: f64| {
@@ -212,7 +186,8 @@ fn order_of_bodies_changes_nothing() {
     let mut turned = stage.clone();
     turned.bodies.reverse();
     let eye = Eye::at(0.0, DVec3::ZERO).moving(beta(0.1, 0.4, -0.3)).wide(80.0);
-    let (a, b) = (exposed(&stage.seen_by(&eye), 0.0), exposed(&turned.seen_by(&eye), 0.0));
+    let (a, b) =
+        (exposed::<16>(&stage.seen_by(&eye), 0.0, SIZE), exposed::<16>(&turned.seen_by(&eye), 0.0, SIZE));
     let bits = |xyz: &DVec3| xyz.to_array().map(f64::to_bits);
     assert!(a.iter().map(bits).eq(b.iter().map(bits)));
 }
@@ -232,8 +207,10 @@ fn any_event_on_the_path_places_a_body() {
         lamp.origin = lamp.origin + lamp.velocity.four() * step;
     }
     let eye = Eye::at(0.0, DVec3::ZERO).moving(beta(0.1, 0.4, -0.3)).wide(80.0);
-    let (worst, others) =
-        difference(&exposed(&stage.seen_by(&eye), 0.0), &exposed(&later.seen_by(&eye), 0.0));
+    let (worst, others) = difference(
+        &exposed::<16>(&stage.seen_by(&eye), 0.0, SIZE),
+        &exposed::<16>(&later.seen_by(&eye), 0.0, SIZE),
+    );
     assert!(worst < 1e-6 && others <= 3, "{worst:e} {others}");
 }
 
@@ -256,7 +233,10 @@ fn turning_the_mesh_and_turning_it_back_changes_nothing() {
             .lit_by([lamp.clone()])
             .scene()
     };
-    let (a, b) = (exposed(&body(plain, DQuat::IDENTITY), 0.0), exposed(&body(turned, turn.inverse()), 0.0));
+    let (a, b) = (
+        exposed::<16>(&body(plain, DQuat::IDENTITY), 0.0, SIZE),
+        exposed::<16>(&body(turned, turn.inverse()), 0.0, SIZE),
+    );
     let (worst, others) = difference(&a, &b);
     assert!(worst < 1e-5 && others < 5, "{worst:e} {others}");
 }

@@ -2,51 +2,22 @@
 
 use crate::support::{
     Body, Dice, Eye, Heaven, Lantern, Stage, ball, beta, black_body, blinking, boosted, built, coloured,
-    cube, cuboid, diffuse, flat, glass, glowing, icosphere, line, mirror, mixed, pane, pixel_centre, plane,
-    square, v,
+    cube, cuboid, difference, diffuse, exposed, flat, glass, glowing, icosphere, line, mirror, mixed, pane,
+    plane, square, v,
 };
 use glam::{DAffine2, DAffine3, DVec2, DVec3};
-use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use std::sync::Arc;
 use terrell::course::Course;
 use terrell::lamp::Beam;
 use terrell::observer::Aim;
-use terrell::scene::Scene;
 use terrell::solid::{Shape, Solid};
 use terrell::spacetime::{self, Event, Poincare, Velocity};
-use terrell::spectrum::{Beyond, Index, Metal, Reflectance, Wavelengths};
+use terrell::spectrum::{Beyond, Index, Metal, Reflectance};
 use terrell::surface::{Absorption, Checker, Colors, Gloss, Paint, Polish, Scatter, Surface};
 use terrell::surroundings::Star;
 use terrell::texture::{Encoding, Filter, Picture, Texels, Texture, Wrap};
 
-const SIZE: (u32, u32) = (72, 54);
-
-/// A picture in full precision, pixel by pixel, each as wide as pixels are.
-pub(crate) fn exposed(scene: &Scene, tau: f64) -> Vec<DVec3> {
-    let (width, height) = SIZE;
-    let view = scene.observer.view(tau, width, height);
-    let wavelengths = Wavelengths::<8>::new();
-    let lit = scene.lit();
-    let at = |number: usize| {
-        let place = pixel_centre(number, width);
-        let ray = view.ray(place);
-        let light = lit.seen_within(&ray, view.cone(place, &ray, 1), &wavelengths);
-        wavelengths.xyz(&light.radiance) + light.lines
-    };
-    (0..(width * height) as usize).into_par_iter().map(at).collect()
-}
-
-/// The largest relative difference of pixels, and how many differ by more than a part in 10,000: those that an edge
-/// passes.
-pub(crate) fn difference(a: &[DVec3], b: &[DVec3]) -> (f64, usize) {
-    let mean = a.iter().map(|xyz| xyz.y).sum::<f64>() / a.len() as f64;
-    let (mut worst, mut others) = (0.0_f64, 0);
-    for (p, q) in a.iter().zip(b) {
-        let part = (p - q).length() / (p.length() + 1e-3 * mean);
-        if part < 1e-4 { worst = worst.max(part) } else { others += 1 }
-    }
-    (worst, others)
-}
+pub(crate) const SIZE: (u32, u32) = (72, 54);
 
 pub(crate) fn noise(dice: &mut Dice, width: u32, height: u32) -> Arc<Picture> {
     let texels =
@@ -216,13 +187,13 @@ fn boosting_everything_leaves_glass_skies_and_clocks_as_they_are() {
     for fast in [0.4, 0.8] {
         let stage = stage(&mut dice, fast);
         for (eye, tau) in eyes(&mut dice) {
-            let original = exposed(&stage.seen_by(&eye), tau);
+            let original = exposed::<8>(&stage.seen_by(&eye), tau, SIZE);
             let lit = original.iter().filter(|xyz| xyz.y > 0.0).count();
             assert!(lit * 2 > pixels, "only {lit} pixels are lit");
             for b in [0.5, 0.9, 0.99] {
                 let by = dice.velocity(b);
                 let moved = boosted::stage(by, &stage).seen_by(&boosted::eye(by, &eye));
-                let (part, edges) = difference(&original, &exposed(&moved, tau));
+                let (part, edges) = difference(&original, &exposed::<8>(&moved, tau, SIZE));
                 println!("{fast} boosted by {b}: worst {part:e}, {edges} others");
                 if part > 1e-6 || edges * 200 > pixels {
                     failures.push((fast, b, part, edges));
@@ -245,13 +216,13 @@ fn boosting_everything_leaves_a_divers_view_as_it_is() {
     };
     stage.bodies.push(water.at(-1.0, v(0.1, -0.2, 0.0)).moving(dice.velocity(0.4)));
     for (eye, tau) in eyes(&mut dice).into_iter().skip(1) {
-        let original = exposed(&stage.seen_by(&eye), tau);
+        let original = exposed::<8>(&stage.seen_by(&eye), tau, SIZE);
         let lit = original.iter().filter(|xyz| xyz.y > 0.0).count();
         // Toward the water's rim some of it is reflected for ever.
         assert!(lit * 3 > original.len(), "only {lit} pixels are lit");
         let by = dice.velocity(0.95);
         let moved = boosted::stage(by, &stage).seen_by(&boosted::eye(by, &eye));
-        let (part, edges) = difference(&original, &exposed(&moved, tau));
+        let (part, edges) = difference(&original, &exposed::<8>(&moved, tau, SIZE));
         println!("diver: worst {part:e}, {edges} others");
         assert!(part < 1e-6 && edges * 200 <= original.len(), "{part:e} {edges}");
     }
@@ -282,18 +253,18 @@ fn order_of_bodies_of_glass_changes_nothing() {
     let mut stage = Stage::of(bodies).lit_by([lamp]).under(Heaven::uniform(black_body(3000.0)));
     stage.depth = 6;
     let eye = Eye::at(0.0, DVec3::ZERO).wide(50.0);
-    let first = exposed(&stage.seen_by(&eye), 0.0);
+    let first = exposed::<8>(&stage.seen_by(&eye), 0.0, SIZE);
     // What is within others is seen: without it the picture is another.
     let mut without = stage.clone();
     without.bodies.remove(2);
-    let (_, others) = difference(&first, &exposed(&without.seen_by(&eye), 0.0));
+    let (_, others) = difference(&first, &exposed::<8>(&without.seen_by(&eye), 0.0, SIZE));
     assert!(others > 100, "{others}");
     let mut dice = Dice(12);
     for _ in 0..3 {
         for i in (1..stage.bodies.len()).rev() {
             stage.bodies.swap(i, dice.below(i + 1));
         }
-        let (worst, others) = difference(&first, &exposed(&stage.seen_by(&eye), 0.0));
+        let (worst, others) = difference(&first, &exposed::<8>(&stage.seen_by(&eye), 0.0, SIZE));
         assert!(worst < 1e-11 && others == 0, "{worst:e} {others}");
     }
 }
@@ -308,7 +279,7 @@ fn flying_camera_equals_flying_world_with_glass_and_stars() {
     still.skies.iter_mut().for_each(|sky| sky.velocity = Velocity::REST);
     let eye = Eye::at(0.0, DVec3::ZERO).wide(80.0);
     for velocity in [beta(0.0, 0.0, -0.8), beta(0.3, 0.2, -0.5)] {
-        let flying_camera = exposed(&still.seen_by(&eye.moving(velocity)), 0.0);
+        let flying_camera = exposed::<8>(&still.seen_by(&eye.moving(velocity)), 0.0, SIZE);
         // The same rest frames, axes and clocks.
         let mut flying = still.clone();
         for body in &mut flying.bodies {
@@ -320,7 +291,7 @@ fn flying_camera_equals_flying_world_with_glass_and_stars() {
             lamp.velocity = -velocity;
         }
         flying.skies.iter_mut().for_each(|sky| sky.velocity = -velocity);
-        let (worst, others) = difference(&flying_camera, &exposed(&flying.seen_by(&eye), 0.0));
+        let (worst, others) = difference(&flying_camera, &exposed::<8>(&flying.seen_by(&eye), 0.0, SIZE));
         println!("flying camera and world differ by {worst:e}, {others} other pixels");
         assert!(worst < 1e-8 && others <= 4, "{worst:e}, {others}");
     }

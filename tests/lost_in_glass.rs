@@ -1,11 +1,12 @@
 //! What is easily lost in glass: lines that come by several ways, narrow things, colours of panes.
 
-use crate::light_equivalence::{difference, exposed, noise};
+use crate::light_equivalence::{SIZE, noise};
 use crate::lines::{SODIUM, any};
 use crate::lines_in_glass::{rays_to_the_ball, same_with_hardly_dispersive_glass, slits, through_prism};
 use crate::support::{
-    Body, Dice, Eye, Heaven, Lantern, Stage, along, ball, beta, built, close, cuboid, diffuse, flat,
-    frequency, glass, glowing, light_from, light_to, line, look, near_vector, pane, plane, square, v,
+    Body, Dice, Eye, Heaven, Lantern, Stage, along, ball, beta, built, close, cuboid, difference, diffuse,
+    exposed, flat, frequency, glass, glowing, light_from, light_to, line, look, near_vector, pane, plane,
+    square, v,
 };
 use glam::{DQuat, DVec3};
 use terrell::fresnel;
@@ -110,7 +111,7 @@ fn order_of_equal_bodies_around_the_eye_changes_nothing() {
     let seen = |bodies: [Body; 2]| {
         let mut stage = Stage::of(bodies).under(sky());
         stage.depth = 3;
-        exposed(&stage.seen_by(&eye), 0.0)
+        exposed::<8>(&stage.seen_by(&eye), 0.0, SIZE)
     };
     let (a, b) = (seen([body(-1.0, 1.3), body(1.0, 1.7)]), seen([body(1.0, 1.7), body(-1.0, 1.3)]));
     let (worst, others) = difference(&a, &b);

@@ -1,6 +1,7 @@
 //! Sight rays, and what comes along them.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use terrell::exposure::{Sampling, expose};
 use terrell::film::{Negative, Reconstruction};
 use terrell::observer::View;
@@ -69,4 +70,29 @@ pub(crate) fn frequency(velocity: Velocity, n: DVec3) -> f64 {
 pub(crate) fn along(velocity: Velocity, n: DVec3) -> DVec3 {
     let u = velocity.proper();
     (n + u * (u.dot(n) / (velocity.gamma() + 1.0) - 1.0)) / frequency(velocity, n)
+}
+
+/// A picture in full precision, pixel by pixel, each sample as wide as a pixel.
+pub(crate) fn exposed<const N: usize>(scene: &Scene, tau: f64, (width, height): (u32, u32)) -> Vec<DVec3> {
+    let view = scene.observer.view(tau, width, height);
+    let wavelengths = Wavelengths::<N>::new();
+    let lit = scene.lit();
+    let at = |number: usize| {
+        let (ray, cone) = view.sight(pixel_centre(number, width), 1.0);
+        let light = lit.seen_within(&ray, cone, &wavelengths);
+        wavelengths.xyz(&light.radiance) + light.lines
+    };
+    (0..(width * height) as usize).into_par_iter().map(at).collect()
+}
+
+/// The largest relative difference of pixels, and how many of them differ by more than a part in 10,000: those that
+/// an edge passes.
+pub(crate) fn difference(a: &[DVec3], b: &[DVec3]) -> (f64, usize) {
+    let mean = a.iter().map(|xyz| xyz.y).sum::<f64>() / a.len() as f64;
+    let (mut worst, mut others) = (0.0_f64, 0);
+    for (p, q) in a.iter().zip(b) {
+        let part = (p - q).length() / (p.length() + 1e-3 * mean);
+        if part < 1e-4 { worst = worst.max(part) } else { others += 1 }
+    }
+    (worst, others)
 }
