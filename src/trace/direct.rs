@@ -150,14 +150,18 @@ impl<const N: usize> Arriving<'_, N> {
             *sum += base * value;
         }
         if response.tint > 0.0 || response.white > 0.0 {
-            let sums = self.reflected.get_or_insert(Reflected { tint: [0.0; N], white: [0.0; N] });
-            let metal = self.lobes.metal();
-            let (tint, white) = (factor * response.tint, factor * response.white);
-            for (i, value) in light.iter().enumerate() {
-                sums.tint[i] += tint * value;
-                sums.white[i] +=
-                    white * value * metal.map_or(1.0, |metal| metal.reflectance(response.cosine, nm[i]));
-            }
+            self.reflect(light, factor, response, nm);
+        }
+    }
+
+    fn reflect(&mut self, light: &[f64; N], factor: f64, response: &Response, nm: &[f64; N]) {
+        let sums = self.reflected.get_or_insert(Reflected { tint: [0.0; N], white: [0.0; N] });
+        let metal = self.lobes.metal();
+        let (tint, white) = (factor * response.tint, factor * response.white);
+        for (i, value) in light.iter().enumerate() {
+            sums.tint[i] += tint * value;
+            sums.white[i] +=
+                white * value * metal.map_or(1.0, |metal| metal.reflectance(response.cosine, nm[i]));
         }
     }
 }

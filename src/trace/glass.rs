@@ -132,9 +132,7 @@ impl Lit<'_> {
         let path = seen.path.filtered(&seen.nm.map(part), &step);
         if !path.is_faint(self.faintest) {
             let path = Path { depth: path.depth - 1, way: seen.way, ..path };
-            let event = seen.spot.beyond(seen.hit.rest, 0.0);
-            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
-            self.gather(&leg, seen.lanes, &path, gathered);
+            self.gather(&seen.straight_on(0.0), seen.lanes, &path, gathered);
         }
     }
 
@@ -155,7 +153,7 @@ impl Lit<'_> {
         let (near, far) = (self.medium_number(&seen.leg.inside), self.medium_number(&inside));
         if near == far {
             // Within something else that decides: nothing happens here.
-            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, wave: seen.leg.wave, inside };
+            let leg = Leg { inside, ..seen.straight_on(further) };
             let path = Path { depth: seen.path.depth - 1, way: seen.way, ..*seen.path };
             return self.gather(&leg, seen.lanes, &path, gathered);
         }

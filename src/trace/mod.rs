@@ -203,6 +203,12 @@ impl<const N: usize> Seen<'_, N> {
         self.spot.k.x / self.spot.k.x.length()
     }
 
+    /// The ray beyond the surface as if that were not there, from `further` metres behind it.
+    fn straight_on(&self, further: f64) -> Leg {
+        let event = self.spot.beyond(self.hit.rest, further);
+        Leg { ray: SightRay { event, ..self.leg.ray }, ..*self.leg }
+    }
+
     /// The body's own time.
     fn tau(&self) -> f64 {
         self.spot.event.t - self.hit.placed.clock_zero
@@ -323,10 +329,8 @@ impl Lit<'_> {
             let step = Step { before: seen.path.steps, part: &part, shift: 1.0 };
             let path =
                 Path { veils: seen.path.veils - 1, way: seen.way, ..seen.path.dimmed(1.0 - share, &step) };
-            let event = seen.spot.beyond(seen.hit.rest, 0.0);
-            let leg = Leg { ray: SightRay { event, ..seen.leg.ray }, ..*seen.leg };
             if !path.is_faint(self.faintest) {
-                self.gather(&leg, seen.lanes, &path, gathered);
+                self.gather(&seen.straight_on(0.0), seen.lanes, &path, gathered);
             }
         }
     }

@@ -36,33 +36,17 @@ impl RestFrame {
         Self { rest_from_lab, placed, tree: Tree::build(&boxes), bounded }
     }
 
-    /// [`Tree::walk`], and then all that has no end.
-    #[inline]
-    fn walk(&self, line: &Line, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
-        if self.bounded as usize == self.placed.len() {
-            return self.tree.walk(line, s_max, visit);
-        }
-        self.walk_endless(line, s_max, &mut visit)
-    }
-
-    fn walk_endless(&self, line: &Line, s_max: f64, visit: &mut dyn FnMut(u32, f64) -> f64) -> f64 {
-        let mut limit = self.tree.walk(line, s_max, &mut *visit);
-        for number in self.bounded..self.placed.len() as u32 {
-            if limit < 0.0 {
-                break;
-            }
-            limit = visit(number, limit);
-        }
-        limit
+    /// What has no end, and so no place in the tree.
+    fn endless(&self) -> std::ops::Range<u32> {
+        self.bounded..self.placed.len() as u32
     }
 
     fn nearest(&self, ray: &SightRay, s_max: f64) -> Option<(u32, Met)> {
         let ray = ray.to(&self.rest_from_lab);
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut nearest = None;
-        self.walk(&line, s_max, |number, limit| {
-            let placed = &self.placed[number as usize];
-            match placed.nearest(&ray, limit) {
+        let limit = self.tree.walk(&line, s_max, |number, limit| {
+            match self.placed[number as usize].nearest(&ray, limit) {
                 Some(met) => {
                     nearest = Some((number, met));
                     met.s()
@@ -70,6 +54,10 @@ impl RestFrame {
                 None => limit,
             }
         });
+        for number in self.endless() {
+            let limit = nearest.map_or(limit, |(_, met)| met.s());
+            nearest = self.placed[number as usize].nearest(&ray, limit).map(|met| (number, met)).or(nearest);
+        }
         nearest
     }
 
@@ -77,21 +65,22 @@ impl RestFrame {
         let ray = ray.to(&self.rest_from_lab);
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let met = |number: u32, limit| {
-            let placed = &self.placed[number as usize];
-            if placed.any(&ray, limit) { -1.0 } else { limit }
+            if self.placed[number as usize].any(&ray, limit) { -1.0 } else { limit }
         };
-        self.walk(&line, s_max, met) < 0.0
+        self.tree.walk(&line, s_max, met) < 0.0
+            || self.endless().any(|number| self.placed[number as usize].any(&ray, s_max))
     }
 
     fn until<'w>(&'w self, ray: &SightRay, s_max: f64, enough: &mut dyn FnMut(Hit<'w>) -> bool) -> bool {
         let ray = ray.to(&self.rest_from_lab);
         let line = Line { origin: ray.event.x, step: -ray.k.x };
-        let met = |number: u32, limit| {
+        let mut stops = |number: u32| {
             let placed = &self.placed[number as usize];
             let mut met = |met: Met| enough(Hit { s: met.s(), rest: self, placed, met });
-            if placed.until(&ray, limit, &mut met) { -1.0 } else { limit }
+            placed.until(&ray, s_max, &mut met)
         };
-        self.walk(&line, s_max, met) < 0.0
+        self.tree.walk(&line, s_max, |number, limit| if stops(number) { -1.0 } else { limit }) < 0.0
+            || self.endless().any(stops)
     }
 }
 
