@@ -8,6 +8,7 @@
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::{BvhBuildParams, bvh2::builder::build_bvh2};
+use smallvec::SmallVec;
 use std::time::Duration;
 
 /// Half the widening of each box, in units in which the whole tree lies within [-1, 1].
@@ -57,25 +58,11 @@ impl Bounds {
 
     /// Where the line is inside, as a stretch of s (which may be empty: first > last).
     ///
-    /// `inverse`: one over the line's step, infinite where that is zero.
+    /// `inverse`: one over the line's step, finite also where that is zero.
     #[inline]
     fn stretch(self, line: &Line, inverse: DVec3) -> (f64, f64) {
-        let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
-        for axis in 0..3 {
-            let (o, d) = (line.origin[axis], inverse[axis]);
-            let (a, b) = ((self.lo[axis] - o) * d, (self.hi[axis] - o) * d);
-            if d.is_infinite() {
-                // Never enters or never leaves (0 times infinity is not a number).
-                if o < self.lo[axis] || o > self.hi[axis] {
-                    return (f64::INFINITY, f64::NEG_INFINITY);
-                }
-                continue;
-            }
-            let (near, far) = if a < b { (a, b) } else { (b, a) };
-            first = if near > first { near } else { first };
-            last = if far < last { far } else { last };
-        }
-        (first, last)
+        let (a, b) = ((self.lo - line.origin) * inverse, (self.hi - line.origin) * inverse);
+        (a.min(b).max_element(), a.max(b).min_element())
     }
 }
 
@@ -187,10 +174,21 @@ impl Tree {
     ///
     /// `visit` gets the limit so far and returns the new one; a negative one ends the walk. Returns the last limit.
     #[inline]
-    pub fn walk(&self, line: &Line, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
-        let Some(mut walk) = self.enter(line, s_max) else { return s_max };
+    pub fn walk(&self, line: &Line, s_max: f64, visit: impl FnMut(u32, f64) -> f64) -> f64 {
+        self.enter(line, s_max).map_or(s_max, |entered| self.walk_on(entered, s_max, visit))
+    }
+
+    /// The rest of a walk, after its beginning.
+    #[inline]
+    pub(crate) fn walk_on(
+        &self,
+        mut walk: Entered,
+        s_max: f64,
+        mut visit: impl FnMut(u32, f64) -> f64,
+    ) -> f64 {
         let mut limit = s_max;
-        let mut stack = Stack::new();
+        // Nodes still to be visited, with their entries; on the heap only in very deep trees.
+        let mut open = SmallVec::<[(f32, u32); 32]>::new();
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
@@ -203,7 +201,7 @@ impl Tree {
                 }
                 match (node.count[side], next) {
                     (0, None) => next = Some(node.first[side]),
-                    (0, Some(_)) => stack.push(near[side], node.first[side]),
+                    (0, Some(_)) => open.push((near[side], node.first[side])),
                     _ => {}
                 }
                 let begin = node.first[side] as usize;
@@ -217,37 +215,47 @@ impl Tree {
                     walk.limit(limit);
                 }
             }
-            let Some(follow) = next.or_else(|| stack.pop(walk.t_max)) else { return limit };
+            let follow = next.or_else(|| {
+                loop {
+                    let (entry, node) = open.pop()?;
+                    if entry <= walk.t_max {
+                        return Some(node);
+                    }
+                }
+            });
+            let Some(follow) = follow else { return limit };
             at = follow;
         }
     }
 
-    /// Moves the start to the box in `f64`, and only then goes to `f32`.
+    /// The beginning of a walk: moves the start to the box in `f64`, and only then goes to `f32`. None for a line that
+    /// meets no box.
     #[inline]
-    fn enter(&self, line: &Line, s_max: f64) -> Option<Walk> {
+    pub(crate) fn enter(&self, line: &Line, s_max: f64) -> Option<Entered> {
         if self.nodes.is_empty() {
             return None;
         }
-        let inverse = 1.0 / line.step;
+        // Finite, so that nothing times zero is not a number.
+        let inverse = (1.0 / line.step).clamp(DVec3::splat(-1e300), DVec3::splat(1e300));
         let (first, last) = self.entrance.stretch(line, inverse);
         let first = if first > 0.0 { first } else { 0.0 };
         // Not `first > last`: a line that is not a number meets nothing.
         if !(first <= last && first < s_max) {
             return None;
         }
-        let length = line.step.length() * self.scale;
+        let speed = line.step.length();
+        let length = speed * self.scale;
         let start = ((line.origin + line.step * first - self.centre) * self.scale).as_vec3();
-        // Below 1e-12 of the length a component moves nothing across the tree: its inverse is kept finite.
-        let inverse =
-            (inverse * (length / self.scale)).clamp(DVec3::splat(-1e12), DVec3::splat(1e12)).as_vec3();
-        let mut walk = Walk { start, inverse, first, length, t_max: f32::MAX };
+        // Below 1e-12 of the length a component moves nothing across the tree.
+        let inverse = (inverse * speed).clamp(DVec3::splat(-1e12), DVec3::splat(1e12)).as_vec3();
+        let mut walk = Entered { start, inverse, first, length, t_max: f32::MAX };
         walk.limit(s_max);
         length.is_finite().then_some(walk)
     }
 }
 
 /// A line inside a tree: from the start with unit speed.
-struct Walk {
+pub(crate) struct Entered {
     start: Vec3,
     inverse: Vec3,
     first: f64,
@@ -255,7 +263,7 @@ struct Walk {
     t_max: f32,
 }
 
-impl Walk {
+impl Entered {
     /// Where the line enters a box; infinite if it does not.
     #[inline]
     fn entry(&self, lo: Vec3, hi: Vec3) -> f32 {
@@ -271,48 +279,6 @@ impl Walk {
     #[inline]
     fn limit(&mut self, s_max: f64) {
         self.t_max = ((s_max - self.first) * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
-    }
-}
-
-/// Nodes still to be visited, with their entries; on the heap only in very deep trees.
-struct Stack {
-    top: usize,
-    fixed: [(f32, u32); 32],
-    spill: Vec<(f32, u32)>,
-}
-
-impl Stack {
-    #[inline]
-    fn new() -> Self {
-        Self { top: 0, fixed: [(0.0, 0); 32], spill: Vec::new() }
-    }
-
-    #[inline]
-    fn push(&mut self, entry: f32, node: u32) {
-        if self.top < self.fixed.len() {
-            self.fixed[self.top] = (entry, node);
-            self.top += 1;
-        } else {
-            self.spill.push((entry, node));
-        }
-    }
-
-    /// The last pushed node that is entered before the limit.
-    #[inline]
-    fn pop(&mut self, t_max: f32) -> Option<u32> {
-        while let Some((entry, node)) = self.spill.pop() {
-            if entry <= t_max {
-                return Some(node);
-            }
-        }
-        while self.top > 0 {
-            self.top -= 1;
-            let (entry, node) = self.fixed[self.top];
-            if entry <= t_max {
-                return Some(node);
-            }
-        }
-        None
     }
 }
 

@@ -47,9 +47,10 @@ impl Triangles {
 
     /// The first meeting at 0 < s < `s_max`.
     pub fn nearest(&self, line: &Line, s_max: f64) -> Option<Meeting> {
+        let entered = self.tree.enter(line, s_max)?;
         let sheared = Sheared::new(line);
         let mut nearest = None;
-        self.tree.walk(line, s_max, |triangle, limit| match self.meet(&sheared, triangle, limit) {
+        self.tree.walk_on(entered, s_max, |triangle, limit| match self.meet(&sheared, triangle, limit) {
             Some(meeting) => {
                 nearest = Some(meeting);
                 meeting.s
@@ -61,19 +62,21 @@ impl Triangles {
 
     /// Whether there is any meeting at 0 < s < `s_max`.
     pub fn any(&self, line: &Line, s_max: f64) -> bool {
+        let Some(entered) = self.tree.enter(line, s_max) else { return false };
         let sheared = Sheared::new(line);
         let met = |triangle, limit| if self.meet(&sheared, triangle, limit).is_some() { -1.0 } else { limit };
-        self.tree.walk(line, s_max, met) < 0.0
+        self.tree.walk_on(entered, s_max, met) < 0.0
     }
 
     /// All meetings at 0 < s < `s_max`, in no order, until one is enough: whether it was.
     pub fn until(&self, line: &Line, s_max: f64, enough: &mut dyn FnMut(Meeting) -> bool) -> bool {
+        let Some(entered) = self.tree.enter(line, s_max) else { return false };
         let sheared = Sheared::new(line);
         let met = |triangle, limit| match self.meet(&sheared, triangle, limit) {
             Some(meeting) if enough(meeting) => -1.0,
             _ => limit,
         };
-        self.tree.walk(line, s_max, met) < 0.0
+        self.tree.walk_on(entered, s_max, met) < 0.0
     }
 
     #[inline]

@@ -134,7 +134,7 @@ impl Gathered {
         let open = |instance: &&import::Instance| {
             chosen.contains(instance.node) && !model.asset.meshes[instance.mesh].is_closed()
         };
-        if let (true, Some(instance)) = (glass, model.asset.instances.iter().find(open)) {
+        if let Some(instance) = glass.then(|| model.asset.instances.iter().find(open)).flatten() {
             let name = &model.asset.meshes[instance.mesh].name;
             let what =
                 format!("the mesh `{name}` is of glass and is not closed: it has no inside to go through");

@@ -176,37 +176,36 @@ impl Source {
 impl Smooth {
     #[inline]
     fn add_to<const N: usize>(&self, sum: &mut [f64; N], wavelengths_nm: &[f64; N], factor: f64) {
-        let mut add = |value: &dyn Fn(f64) -> f64| {
-            for (sum, nm) in sum.iter_mut().zip(wavelengths_nm) {
-                *sum += factor * value(*nm);
-            }
-        };
         match self {
-            // Apart from the others, so that this loop runs in vectors.
-            Self::BlackBody(kelvin) => {
-                for (sum, nm) in sum.iter_mut().zip(wavelengths_nm) {
-                    *sum += factor * planck(*nm, *kelvin);
-                }
-            }
-            Self::Constant => add(&|_| 1.0),
+            Self::BlackBody(kelvin) => add(sum, wavelengths_nm, factor, |nm| planck(nm, *kelvin)),
+            Self::Constant => add(sum, wavelengths_nm, factor, |_| 1.0),
             Self::Daylight => {
                 let daylight = &*D65;
-                add(&|nm| daylight.at(nm));
+                add(sum, wavelengths_nm, factor, |nm| daylight.at(nm));
             }
             Self::Filtered(rgb) => {
                 let filter = Reflectance::Rgb(*rgb);
                 let daylight = &*D65;
-                add(&|nm| daylight.at(nm) * filter.at(nm));
+                add(sum, wavelengths_nm, factor, |nm| daylight.at(nm) * filter.at(nm));
             }
             Self::Table(table) => {
                 let (first, last) = table.range();
-                add(&|nm| if (first..=last).contains(&nm) { table.at(nm) } else { 0.0 });
+                let value = |nm| if (first..=last).contains(&nm) { table.at(nm) } else { 0.0 };
+                add(sum, wavelengths_nm, factor, value);
             }
-            Self::Gauss { centre_nm, sigma_nm } => add(&|nm| {
+            Self::Gauss { centre_nm, sigma_nm } => add(sum, wavelengths_nm, factor, |nm| {
                 let z = (nm - centre_nm) / sigma_nm;
                 libm::exp(-0.5 * z * z) * FRAC_1_SQRT_TAU / sigma_nm
             }),
         }
+    }
+}
+
+/// (A function, so that each spectrum has its own loop, which may run in vectors.)
+#[inline]
+fn add<const N: usize>(sum: &mut [f64; N], nm: &[f64; N], factor: f64, value: impl Fn(f64) -> f64) {
+    for (sum, nm) in sum.iter_mut().zip(nm) {
+        *sum += factor * value(*nm);
     }
 }
 

@@ -76,15 +76,18 @@ pub static D65: LazyLock<Daylight> = LazyLock::new(|| {
 
 impl Daylight {
     /// Relative spectral power at a wavelength in nm.
+    #[inline]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        if wavelength_nm < 300.0 {
-            return self.below * planck(wavelength_nm, 6504.0);
-        }
-        if wavelength_nm > 830.0 {
-            return self.above * planck(wavelength_nm, 6504.0);
+        if !(300.0..=830.0).contains(&wavelength_nm) {
+            return self.beyond(wavelength_nm);
         }
         let place = (wavelength_nm - 300.0) / 5.0;
         let row = (place as usize).min(self.table.len() - 2);
         self.table[row] + (place - row as f64) * (self.table[row + 1] - self.table[row])
+    }
+
+    fn beyond(&self, wavelength_nm: f64) -> f64 {
+        let scale = if wavelength_nm < 300.0 { self.below } else { self.above };
+        scale * planck(wavelength_nm, 6504.0)
     }
 }

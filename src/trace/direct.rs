@@ -58,10 +58,12 @@ impl Lit<'_> {
             let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
             self.add_lamp(&light, &response, seen, &mut arriving, gathered);
         }
-        let base = lobes.base.as_ref().map_or([0.0; N], |base| base.at_each(&seen.nm));
-        let mut radiance = arriving.base;
-        for (value, part) in radiance.iter_mut().zip(base) {
-            *value *= part;
+        let mut radiance = match &lobes.base {
+            Some(base) => base.at_each(&seen.nm),
+            None => [0.0; N],
+        };
+        for (value, light) in radiance.iter_mut().zip(&arriving.base) {
+            *value *= light;
         }
         if let Some(reflected) = &arriving.reflected {
             let tint = lobes.shine.as_ref().and_then(|shine| shine.tint.as_ref());

@@ -111,30 +111,34 @@ impl Colored<'_> {
 
 impl Lit<'_> {
     /// What is left of a lamp's light where it arrives; none if nothing is.
+    #[inline]
     pub(super) fn passage(&self, connection: &Connection) -> Option<Passage<'_>> {
+        if self.see_through {
+            return self.passage_through(connection);
+        }
+        (!self.world.blocked(&connection.ray, connection.s_lamp)).then_some(Passage::CLEAR)
+    }
+
+    /// The same where surfaces may let light through.
+    fn passage_through(&self, connection: &Connection) -> Option<Passage<'_>> {
         let mut passage = Passage::CLEAR;
         let ray = &connection.ray;
         // An edge belongs to two triangles, and counts once.
         let mut met: Vec<(usize, f64)> = Vec::new();
-        let blocked = if self.see_through {
-            self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
-                let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
-                if !surface.lets_through() {
-                    return true;
-                }
-                let same = |(number, s): &(usize, f64)| {
-                    *number == hit.surface() && (s - hit.s).abs() <= 1e-12 * s.abs()
-                };
-                if met.iter().any(same) {
-                    return false;
-                }
-                met.push((hit.surface(), hit.s));
-                let spot = hit.spot(ray);
-                passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
-            })
-        } else {
-            self.world.blocked(ray, connection.s_lamp)
-        };
+        let blocked = self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
+            let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
+            if !surface.lets_through() {
+                return true;
+            }
+            let same =
+                |(number, s): &(usize, f64)| *number == hit.surface() && (s - hit.s).abs() <= 1e-12 * s.abs();
+            if met.iter().any(same) {
+                return false;
+            }
+            met.push((hit.surface(), hit.s));
+            let spot = hit.spot(ray);
+            passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
+        });
         (!blocked).then_some(passage)
     }
 

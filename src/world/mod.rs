@@ -18,27 +18,28 @@ use crate::tree::{Bounds, Line, Tree};
 pub struct RestFrame {
     /// Into the frame.
     pub rest_from_lab: Poincare<Rest, Lab>,
-    /// What is in it: first all that has an end, then the rest.
+    /// What is in it: first what is in the tree, then the rest.
     pub placed: Vec<Placed>,
-    // Over those that have an end.
     tree: Tree,
-    bounded: u32,
+    in_tree: u32,
 }
 
 impl RestFrame {
-    /// Builds the tree over what is placed.
+    /// Builds the tree over what is placed. What has no end has no place in it; and one alone needs none.
     pub fn new(rest_from_lab: Poincare<Rest, Lab>, placed: Vec<Placed>) -> Self {
-        let (mut placed, unbounded): (Vec<_>, Vec<_>) =
+        let (mut placed, endless): (Vec<_>, Vec<_>) =
             placed.into_iter().partition(|placed| placed.bounds().is_some());
-        let boxes: Vec<Bounds> = placed.iter().filter_map(Placed::bounds).collect();
-        let bounded = placed.len() as u32;
-        placed.extend(unbounded);
-        Self { rest_from_lab, placed, tree: Tree::build(&boxes), bounded }
+        let mut boxes: Vec<Bounds> = placed.iter().filter_map(Placed::bounds).collect();
+        if boxes.len() == 1 {
+            boxes.clear();
+        }
+        placed.extend(endless);
+        Self { rest_from_lab, placed, tree: Tree::build(&boxes), in_tree: boxes.len() as u32 }
     }
 
-    /// What has no end, and so no place in the tree.
-    fn endless(&self) -> std::ops::Range<u32> {
-        self.bounded..self.placed.len() as u32
+    /// What is not in the tree.
+    fn apart(&self) -> std::ops::Range<u32> {
+        self.in_tree..self.placed.len() as u32
     }
 
     fn nearest(&self, ray: &SightRay, s_max: f64) -> Option<(u32, Met)> {
@@ -54,7 +55,7 @@ impl RestFrame {
                 None => limit,
             }
         });
-        for number in self.endless() {
+        for number in self.apart() {
             let limit = nearest.map_or(limit, |(_, met)| met.s());
             nearest = self.placed[number as usize].nearest(&ray, limit).map(|met| (number, met)).or(nearest);
         }
@@ -68,7 +69,7 @@ impl RestFrame {
             if self.placed[number as usize].any(&ray, limit) { -1.0 } else { limit }
         };
         self.tree.walk(&line, s_max, met) < 0.0
-            || self.endless().any(|number| self.placed[number as usize].any(&ray, s_max))
+            || self.apart().any(|number| self.placed[number as usize].any(&ray, s_max))
     }
 
     fn until<'w>(&'w self, ray: &SightRay, s_max: f64, enough: &mut dyn FnMut(Hit<'w>) -> bool) -> bool {
@@ -80,7 +81,7 @@ impl RestFrame {
             placed.until(&ray, s_max, &mut met)
         };
         self.tree.walk(&line, s_max, |number, limit| if stops(number) { -1.0 } else { limit }) < 0.0
-            || self.endless().any(stops)
+            || self.apart().any(stops)
     }
 }
 
@@ -113,7 +114,7 @@ impl World {
     pub fn endless_around(&self, event: Event) -> impl Iterator<Item = usize> {
         self.frames.iter().flat_map(move |rest| {
             let x = (rest.rest_from_lab * event).x;
-            let endless = rest.placed.iter().skip(rest.bounded as usize);
+            let endless = rest.placed.iter().skip(rest.in_tree as usize).filter(|p| p.bounds().is_none());
             endless.filter(move |placed| placed.contains(x)).map(|placed| placed.surfaces as usize)
         })
     }
