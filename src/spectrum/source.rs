@@ -150,10 +150,16 @@ impl Source {
     #[inline]
     pub fn at_each<const N: usize>(&self, wavelengths_nm: &[f64; N]) -> [f64; N] {
         let mut sum = [0.0; N];
-        for (factor, smooth) in &self.smooth {
-            smooth.add_to(&mut sum, wavelengths_nm, *factor);
-        }
+        self.add_each(&mut sum, wavelengths_nm, 1.0);
         sum
+    }
+
+    /// Adds the smooth part, so many times, at many wavelengths.
+    #[inline]
+    pub fn add_each<const N: usize>(&self, sum: &mut [f64; N], wavelengths_nm: &[f64; N], times: f64) {
+        for (factor, smooth) in &self.smooth {
+            smooth.add_to(sum, wavelengths_nm, factor * times);
+        }
     }
 
     /// Whether nothing is in it.

@@ -106,6 +106,13 @@ pub(crate) struct Response {
     pub(crate) cosine: f64,
 }
 
+impl Response {
+    /// Whether there is more to it than its base.
+    pub(crate) fn shines(&self) -> bool {
+        self.tint > 0.0 || self.white > 0.0
+    }
+}
+
 /// What is reflected as by a mirror.
 pub(crate) struct Reflection {
     pub(crate) normal: DVec3,
@@ -130,14 +137,19 @@ fn fifth(cosine: f64) -> f64 {
 }
 
 impl<'s> Lobes<'s> {
+    /// Of a diffuse surface.
+    #[inline]
+    pub(crate) fn diffuse(paint: &'s Paint, surface: &'s Surface, look: &Look<'_>) -> Self {
+        let normal = look.normal(surface.relief.as_ref());
+        Self { base: Some(paint.at(look)), normal, diffuse: 1.0, shine: None }
+    }
+
     /// What scatters light of lamps at a place; none for what does not.
     #[inline]
     pub(crate) fn of(surface: &'s Surface, look: &Look<'_>) -> Option<Self> {
         let normal = look.normal(surface.relief.as_ref());
         match &surface.scatter {
-            Scatter::Diffuse(paint) => {
-                Some(Self { base: Some(paint.at(look)), normal, diffuse: 1.0, shine: None })
-            }
+            Scatter::Diffuse(paint) => Some(Self::diffuse(paint, surface, look)),
             Scatter::Metal(Polish { of, roughness }) => {
                 let shine = Shine { metal: Some(of), roughness: *roughness, ..Shine::NONE };
                 Some(Self { base: None, normal, diffuse: 0.0, shine: Some(shine) })

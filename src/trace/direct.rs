@@ -3,7 +3,7 @@
 use super::{Gathered, Lit, Seen, scaled};
 use crate::lamp::{Connection, Lamp};
 use crate::spectrum::Source;
-use crate::surface::{Lobes, Response, Surface};
+use crate::surface::{Lobes, Paint, Response, Surface};
 
 /// Light on its way from lamps to the observer, before the surface's own spectra.
 struct Arriving<'l, const N: usize> {
@@ -22,11 +22,12 @@ impl Lit<'_> {
     /// Light of the lamps, and of the fill light, that a surface throws back.
     pub(super) fn add_diffuse<const N: usize>(
         &self,
+        paint: &Paint,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
-        let Some(lobes) = Lobes::of(surface, &seen.look()) else { return };
+        let lobes = Lobes::diffuse(paint, surface, &seen.look());
         let fill = Response { base: 1.0, ..Response::default() };
         self.add_lobes(&lobes, fill, surface, seen, gathered);
     }
@@ -38,7 +39,7 @@ impl Lit<'_> {
         fill: Response,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let mut arriving = Arriving { lobes, base: [0.0; N], reflected: None };
         if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
@@ -81,14 +82,14 @@ impl Lit<'_> {
         fill: &Response,
         seen: &Seen<'_, N>,
         arriving: &mut Arriving<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         // In a medium the light that fills it is n² times as bright.
         let dense = self.medium(&seen.leg.inside).map_or(1.0, |medium| {
             let (nm, _) = self.local(medium, seen.leg.wave, seen.lanes[0]);
             medium.index.at(nm) * medium.index.at(nm)
         });
-        arriving.add(&ambient.at_each(&seen.nm), dense, fill, &seen.nm);
+        arriving.add(ambient, &seen.nm, dense, fill, &seen.nm);
         for line in ambient.lines() {
             let nm = line.wavelength_nm;
             self.add_line(line, nm, dense * line.power * arriving.lobes.at(fill, nm), seen, gathered);
@@ -102,7 +103,7 @@ impl Lit<'_> {
         response: &Response,
         seen: &Seen<'_, N>,
         arriving: &mut Arriving<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let doppler = light.omega / light.connection.omega;
         let shift = self.effects.shift(doppler);
@@ -114,11 +115,14 @@ impl Lit<'_> {
             if factor == 0.0 {
                 continue;
             }
-            let mut intensity = source.at_each(&at_lamp);
-            if let Some(colored) = &light.passage.colored {
-                self.filter(colored, light.connection, light.omega, &seen.nm, &mut intensity);
+            match &light.passage.colored {
+                None => arriving.add(source, &at_lamp, factor, response, &seen.nm),
+                Some(colored) => {
+                    let mut intensity = source.at_each(&at_lamp);
+                    self.filter(colored, light.connection, light.omega, &seen.nm, &mut intensity);
+                    arriving.add_spectrum(&intensity, factor, response, &seen.nm);
+                }
             }
-            arriving.add(&intensity, factor, response, &seen.nm);
             for line in source.lines() {
                 // A line's power is integrated over the wavelength, which shrinks by the shift.
                 let wavelength_nm = line.wavelength_nm / shift;
@@ -145,13 +149,28 @@ struct FromLamp<'l> {
 }
 
 impl<const N: usize> Arriving<'_, N> {
-    #[inline]
-    fn add(&mut self, light: &[f64; N], factor: f64, response: &Response, nm: &[f64; N]) {
+    /// A source's light, seen at `at_source` (nm), which is `nm` at the surface.
+    fn add(
+        &mut self,
+        source: &Source,
+        at_source: &[f64; N],
+        factor: f64,
+        response: &Response,
+        nm: &[f64; N],
+    ) {
+        if response.shines() {
+            self.add_spectrum(&source.at_each(at_source), factor, response, nm);
+        } else {
+            source.add_each(&mut self.base, at_source, factor * response.base);
+        }
+    }
+
+    fn add_spectrum(&mut self, light: &[f64; N], factor: f64, response: &Response, nm: &[f64; N]) {
         let base = factor * response.base;
         for (sum, value) in self.base.iter_mut().zip(light) {
             *sum += base * value;
         }
-        if response.tint > 0.0 || response.white > 0.0 {
+        if response.shines() {
             self.reflect(light, factor, response, nm);
         }
     }

@@ -69,7 +69,7 @@ impl Lit<'_> {
         glass: &Glass,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let look = seen.look();
         let amount = glass.amount_at(&look);
@@ -92,7 +92,7 @@ impl Lit<'_> {
         glass: &Glass,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let Some(lobes) = Lobes::of(surface, &seen.look()) else { return };
         let cosine = lobes.normal.dot(seen.to_eye()).clamp(0.0, 1.0);
@@ -112,7 +112,7 @@ impl Lit<'_> {
         amount: f64,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let look = seen.look();
         let normal = look.normal(surface.relief.as_ref());
@@ -143,7 +143,7 @@ impl Lit<'_> {
         amount: f64,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let (inside, further, contact) = self.beyond(glass.medium, seen);
         if let Some(hit) = contact {
@@ -197,7 +197,7 @@ impl Lit<'_> {
             return;
         }
         let apart = lanes.apart(glass.index.at(589.0), seen);
-        let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
+        let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<'_, 1>| {
             if let Some(light) = self.at_face(&face, seen, lane).refracted {
                 self.gather(&onward(light), &[lane], path, gathered);
             }
@@ -206,14 +206,19 @@ impl Lit<'_> {
     }
 
     /// A surface that lets nothing through and touches a face from beyond: it is seen as from within the medium.
-    fn meet_in_contact<const N: usize>(&self, hit: &Hit<'_>, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+    fn meet_in_contact<const N: usize>(
+        &self,
+        hit: &Hit<'_>,
+        seen: &Seen<'_, N>,
+        gathered: &mut Gathered<'_, N>,
+    ) {
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };
         let spot = hit.spot(&seen.leg.ray);
         let omega = (hit.rest.rest_from_lab * seen.leg.wave).t;
         let shift = self.effects.shift(omega);
         let nm = scaled(seen.lanes, 1.0 / shift);
         // Its light comes and goes on this side of the face, within the medium.
-        self.meet(surface, &Seen { hit, spot, omega, shift, nm, ..*seen }, gathered);
+        self.meet(surface, &Seen { hit, spot: &spot, omega, shift, nm, ..*seen }, gathered);
     }
 
     /// What is beyond a face, how far the last of the surfaces is that touch it (m, rest frame), and whether one of these

@@ -104,7 +104,7 @@ impl Lit<'_> {
         leg: &Leg,
         lanes: &[f64; N],
         path: &Path<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let inside = self.inside_at(&leg.ray);
         let Some(medium) = self.medium(&inside) else { return self.gather(leg, lanes, path, gathered) };
@@ -118,7 +118,7 @@ impl Lit<'_> {
         let step = Step { before: path.steps, part: &part, shift: self.effects.shift(null.t) };
         if medium.index.disperses() && N > 1 {
             let path = Path { steps: Some(&step), ..*path };
-            let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<1>| {
+            let follow = &mut |lane: f64, path: &Path<'_, 1>, gathered: &mut Gathered<'_, 1>| {
                 self.gather(&start(lane), &[lane], path, gathered);
             };
             let parted = Parted { wave: leg.wave, apart: &[], follow };
@@ -159,7 +159,7 @@ impl Lit<'_> {
         &self,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let absorbing = self.medium(&seen.leg.inside).and_then(|m| Some((m, m.absorption.as_ref()?)));
         let Some((medium, absorption)) = absorbing else { return self.meet(surface, seen, gathered) };

@@ -11,7 +11,7 @@ impl Lit<'_> {
         paint: &Paint,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         if seen.path.depth == 0 {
             return;
@@ -28,7 +28,7 @@ impl Lit<'_> {
         &self,
         surface: &Surface,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let Some(lobes) = Lobes::of(surface, &seen.look()) else { return };
         let (mut fill, reflections) = lobes.all_round(seen.to_eye());
@@ -51,7 +51,7 @@ impl Lit<'_> {
         lobes: &Lobes<'_>,
         reflection: &Reflection,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let traced = fade(reflection.roughness);
         if traced == 0.0 {
@@ -70,7 +70,7 @@ impl Lit<'_> {
         normal: DVec3,
         path: &Path<'_, N>,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         if path.is_faint(self.faintest) {
             return;

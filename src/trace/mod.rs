@@ -176,7 +176,7 @@ impl<'p, const N: usize> Path<'p, N> {
 /// A hit with what the observer's terms become there.
 struct Seen<'h, const N: usize> {
     hit: &'h Hit<'h>,
-    spot: Spot,
+    spot: &'h Spot,
     departure: Event,
     leg: &'h Leg,
     // The light's frequency at the surface, in units of what the observer sees.
@@ -195,7 +195,7 @@ struct Seen<'h, const N: usize> {
 
 impl<const N: usize> Seen<'_, N> {
     fn look(&self) -> Look<'_> {
-        Look { hit: self.hit, spot: &self.spot, radius: self.radius }
+        Look { hit: self.hit, spot: self.spot, radius: self.radius }
     }
 
     /// The direction to where the light goes, unit, in the surface's rest frame.
@@ -221,8 +221,8 @@ impl<const N: usize> Seen<'_, N> {
 }
 
 /// What has been gathered for a sight ray.
-struct Gathered<const N: usize> {
-    light: Light<N>,
+struct Gathered<'g, const N: usize> {
+    light: &'g mut Light<N>,
     // Where lines are kept apart instead of becoming XYZ.
     caught: Option<Vec<split::Caught>>,
     // The wave vector with which the strongest part of the light has come out of glass, and how strong it is.
@@ -242,8 +242,8 @@ impl Lit<'_> {
         cone: Cone,
         wavelengths: &Wavelengths<N>,
     ) -> Light<N> {
-        let light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
-        let mut gathered = Gathered { light, caught: None, exit: (0.0, ray.k) };
+        let mut light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
+        let mut gathered = Gathered { light: &mut light, caught: None, exit: (0.0, ray.k) };
         let path =
             Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
         let leg = Leg { ray: *ray, wave: ray.k, inside: Inside::default() };
@@ -252,7 +252,7 @@ impl Lit<'_> {
         } else {
             self.start_inside(&leg, &wavelengths.nm, &path, &mut gathered);
         }
-        gathered.light
+        light
     }
 
     /// The first hit of a sight ray.
@@ -277,7 +277,7 @@ impl Lit<'_> {
         leg: &Leg,
         lanes: &[f64; N],
         path: &Path<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         if gathered.caught.is_some() && leg.inside.is_empty() && path.throughput[0] > gathered.exit.0 {
             gathered.exit = (path.throughput[0], leg.wave);
@@ -297,7 +297,7 @@ impl Lit<'_> {
         let seen = Seen {
             departure: spot.departure(hit.rest),
             hit: &hit,
-            spot,
+            spot: &spot,
             leg,
             omega,
             shift,
@@ -315,7 +315,7 @@ impl Lit<'_> {
     }
 
     /// A surface, and what is seen through where it is not there.
-    fn meet<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+    fn meet<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<'_, N>) {
         let Some(veil) = &surface.veil else { return self.shade(surface, seen, gathered) };
         let share = veil.share(&seen.look());
         let dim = |part: f64| move |_: f64| part;
@@ -335,13 +335,13 @@ impl Lit<'_> {
         }
     }
 
-    fn shade<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+    fn shade<const N: usize>(&self, surface: &Surface, seen: &Seen<'_, N>, gathered: &mut Gathered<'_, N>) {
         if let Some(glow) = &surface.glow {
             self.add_glow(glow, seen, gathered);
         }
         match &surface.scatter {
             Scatter::Absorb => {}
-            Scatter::Diffuse(_) => self.add_diffuse(surface, seen, gathered),
+            Scatter::Diffuse(paint) => self.add_diffuse(paint, surface, seen, gathered),
             Scatter::Gloss(_) | Scatter::Metal(_) => self.add_gloss(surface, seen, gathered),
             Scatter::Mirror(paint) => self.follow_mirror(paint, surface, seen, gathered),
             Scatter::Glass(glass) => self.add_glass(glass, surface, seen, gathered),
@@ -359,7 +359,7 @@ impl Lit<'_> {
     }
 
     /// Light that the surface emits itself.
-    fn add_glow<const N: usize>(&self, glow: &Glow, seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+    fn add_glow<const N: usize>(&self, glow: &Glow, seen: &Seen<'_, N>, gathered: &mut Gathered<'_, N>) {
         let look = seen.look();
         let white = Reflectance::Constant(1.0);
         let tint = match &glow.paint {
@@ -383,7 +383,7 @@ impl Lit<'_> {
         leg: &Leg,
         lanes: &[f64; N],
         path: &Path<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         for surroundings in self.surroundings {
             let (escaped, left) = self.escaped(leg, lanes[0]);
@@ -404,7 +404,7 @@ impl Lit<'_> {
     }
 
     /// Radiance that leaves the surface, as the observer gets it: `L(λ) = ω⁻⁵ L'(λ/ω)`.
-    fn add<const N: usize>(&self, radiance: &[f64; N], seen: &Seen<'_, N>, gathered: &mut Gathered<N>) {
+    fn add<const N: usize>(&self, radiance: &[f64; N], seen: &Seen<'_, N>, gathered: &mut Gathered<'_, N>) {
         let gain = self.effects.gain(seen.omega, -5);
         for ((sum, value), part) in gathered.light.radiance.iter_mut().zip(radiance).zip(seen.path.throughput)
         {
@@ -421,14 +421,14 @@ impl Lit<'_> {
         wavelength_nm: f64,
         power: f64,
         seen: &Seen<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
     ) {
         let power = power * self.effects.gain(seen.omega, -5) * seen.shift;
         gathered.line::<N>(of, wavelength_nm * seen.shift, power, seen.path);
     }
 }
 
-impl<const N: usize> Gathered<N> {
+impl<const N: usize> Gathered<'_, N> {
     /// A line that the observer would see at a wavelength with a power, but for what lies between.
     fn line<const M: usize>(&mut self, of: &Line, seen_nm: f64, power: f64, path: &Path<'_, M>) {
         let power = power * path.steps.map_or(1.0, |step| step.throughput(seen_nm));

@@ -45,7 +45,7 @@ pub(super) struct Parted<'f> {
     /// How far each wavelength and the next part, in pixels; 0 where it is not known.
     pub(super) apart: &'f [f64],
     /// Follows one wavelength.
-    pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
+    pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<'_, 1>),
 }
 
 impl Lit<'_> {
@@ -54,7 +54,7 @@ impl Lit<'_> {
         &self,
         lanes: &[f64; N],
         path: &Path<'_, N>,
-        gathered: &mut Gathered<N>,
+        gathered: &mut Gathered<'_, N>,
         parted: Parted<'_>,
     ) {
         let Parted { wave, apart, follow } = parted;
@@ -141,7 +141,7 @@ fn one<const N: usize>(
     nm: f64,
     path: &Path<'_, N>,
     wave: FourVector,
-    follow: &mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<1>),
+    follow: &mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<'_, 1>),
 ) -> (f64, Vec<Caught>, FourVector) {
     let throughput = [path.steps.map_or(1.0, |step| step.throughput(nm))];
     let path = Path {
@@ -152,12 +152,13 @@ fn one<const N: usize>(
         way: path.way,
         cone: path.cone,
     };
-    let light = Light { radiance: [0.0], lines: DVec3::ZERO };
-    let mut gathered = Gathered { light, caught: Some(Vec::new()), exit: (0.0, wave) };
+    let mut light = Light { radiance: [0.0], lines: DVec3::ZERO };
+    let mut gathered = Gathered { light: &mut light, caught: Some(Vec::new()), exit: (0.0, wave) };
     if throughput[0] > 0.0 {
         follow(nm, &path, &mut gathered);
     }
-    (gathered.light.radiance[0], gathered.caught.unwrap_or_default(), gathered.exit.1)
+    let Gathered { caught, exit, .. } = gathered;
+    (light.radiance[0], caught.unwrap_or_default(), exit.1)
 }
 
 /// XYZ of what lies before the first wavelength and after the last, where the radiance goes on.
