@@ -187,8 +187,7 @@ impl Tree {
         mut visit: impl FnMut(u32, f64) -> f64,
     ) -> f64 {
         let mut limit = s_max;
-        // Nodes still to be visited, with their entries; on the heap only in very deep trees.
-        let mut open = SmallVec::<[(f32, u32); 32]>::new();
+        let mut open = Open::new();
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
@@ -215,15 +214,7 @@ impl Tree {
                     walk.limit(limit);
                 }
             }
-            let follow = next.or_else(|| {
-                loop {
-                    let (entry, node) = open.pop()?;
-                    if entry <= walk.t_max {
-                        return Some(node);
-                    }
-                }
-            });
-            let Some(follow) = follow else { return limit };
+            let Some(follow) = next.or_else(|| before(&mut open, walk.t_max)) else { return limit };
             at = follow;
         }
     }
@@ -280,6 +271,20 @@ impl Entered {
     fn limit(&mut self, s_max: f64) {
         self.t_max = ((s_max - self.first) * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
     }
+}
+
+/// Nodes still to be visited, with their entries; on the heap only in very deep trees.
+type Open = SmallVec<[(f32, u32); 32]>;
+
+/// The last of them that is entered before the limit.
+#[inline]
+fn before(open: &mut Open, t_max: f32) -> Option<u32> {
+    while let Some((entry, node)) = open.pop() {
+        if entry <= t_max {
+            return Some(node);
+        }
+    }
+    None
 }
 
 fn aabb(lo: Vec3, hi: Vec3) -> Aabb {
