@@ -1,6 +1,10 @@
 //! The eye: CIE 1931 colour matching, and from there to linear sRGB and its encoding. Nothing else knows how
 //! light becomes three numbers.
 
+mod difference;
+
+pub use difference::{Lab, ciede2000};
+
 use glam::{DMat3, DVec3};
 use std::sync::LazyLock;
 

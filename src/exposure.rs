@@ -4,7 +4,7 @@ use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::scene::Scene;
 use crate::spectrum::Wavelengths;
-use crate::trace::{Cone, First};
+use crate::trace::{Cone, First, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ pub struct Sampling {
     pub samples: u32,
     /// The filter over them.
     pub reconstruction: Reconstruction,
-    /// Wavelengths per sample: 8, 16, 32 or 64.
+    /// Wavelengths per sample: 3 (where that is enough), 8, 16, 32 or 64.
     pub wavelengths: u32,
 }
 
@@ -31,16 +31,21 @@ const ROWS_PER_TASK: usize = 4;
 
 /// Exposes a picture. The same bytes on any number of threads.
 pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
+    expose_lit(&scene.lit(), view, sampling)
+}
+
+/// The same with the methods of the light loop chosen by hand.
+pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
     match sampling.wavelengths {
-        0..=8 => expose_with::<8>(scene, view, sampling),
-        9..=16 => expose_with::<16>(scene, view, sampling),
-        17..=32 => expose_with::<32>(scene, view, sampling),
-        _ => expose_with::<64>(scene, view, sampling),
+        0..=3 => expose_with::<3>(lit, view, sampling),
+        4..=8 => expose_with::<8>(lit, view, sampling),
+        9..=16 => expose_with::<16>(lit, view, sampling),
+        17..=32 => expose_with::<32>(lit, view, sampling),
+        _ => expose_with::<64>(lit, view, sampling),
     }
 }
 
-fn expose_with<const N: usize>(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
-    let lit = scene.lit();
+fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
     let wavelengths = Wavelengths::<N>::new();
     let offsets = sampling.reconstruction.offsets(sampling.samples);
     let phases: Vec<f64> = (0..sampling.samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect();

@@ -50,8 +50,14 @@ pub fn render(
     std::thread::scope(|scope| {
         let (prints, inbox) = sync_channel(1);
         let writer = scope.spawn(move || file_all(plan, movie, &inbox, tell));
+        let mut last = None;
         for exposure in exposures {
-            if prints.send(print(scene, plan, exposure, &development)).is_err() {
+            let negative =
+                last.take().filter(|_| plan.still).unwrap_or_else(|| negative(scene, plan, exposure));
+            if plan.still {
+                last = Some(negative.clone());
+            }
+            if prints.send(print(scene, plan, exposure, &development, negative)).is_err() {
                 break; // The writer has stopped and says why.
             }
         }
@@ -74,9 +80,20 @@ fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
     scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
 }
 
-fn print(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Development) -> Print {
+fn negative(scene: &Scene, plan: &Plan, exposure: &Exposure) -> Negative {
+    // Of a still film always the first, so that a part of it has the same bytes.
+    let exposure = if plan.still { &plan.exposures[0] } else { exposure };
+    expose(scene, &view(scene, plan, exposure), &plan.sampling)
+}
+
+fn print(
+    scene: &Scene,
+    plan: &Plan,
+    exposure: &Exposure,
+    development: &Development,
+    negative: Negative,
+) -> Print {
     let view = view(scene, plan, exposure);
-    let negative = expose(scene, &view, &plan.sampling);
     let firsts = plan.exr.then(|| first_hits(scene, &view, negative.width, negative.height));
     Print { exposure: *exposure, rgb: development.develop(&negative), negative, firsts }
 }

@@ -7,6 +7,7 @@ mod cli;
 mod clockwork;
 mod course;
 mod delay;
+mod difference;
 mod doppler;
 mod effects;
 mod equivalence;
@@ -28,6 +29,7 @@ mod manifest;
 mod mirror;
 #[cfg(feature = "video")]
 mod movie;
+mod needs;
 mod output;
 mod radiance;
 mod shadow;

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::manifest::Manifest;
-use crate::plan::Plan;
+use crate::plan::{Plan, needs};
 use crate::render;
 use crate::scene::Scene;
 use crate::surface::{Scatter, Surface, fade};
@@ -15,6 +15,10 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
     let mut text = format!("{}: no faults\n", path.display());
     for (what, how_much) in needs(&manifest, &scene, &plan) {
         text += &format!("  {what:<14} {how_much}\n");
+    }
+    text += "how it is rendered, and why\n";
+    for needs::Part { name, choice, why } in needs::parts(&scene, &plan) {
+        text += &format!("  {name:<14} {choice}: {why}\n");
     }
     super::print(&text)
 }

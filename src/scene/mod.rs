@@ -69,7 +69,7 @@ impl Scene {
         self
     }
 
-    /// The scene as the light loop takes it.
+    /// The scene as the light loop takes it, with the methods that it needs and no others.
     pub fn lit(&self) -> Lit<'_> {
         Lit {
             world: &self.world,
@@ -79,9 +79,10 @@ impl Scene {
             ambient: &self.ambient,
             surroundings: &self.surroundings,
             see_through: self.surfaces.iter().any(Surface::lets_through),
+            footprints: self.surfaces.iter().any(Surface::is_textured),
             lines: &self.lines,
             effects: self.effects,
-            depth: self.depth,
+            depth: if self.surfaces.iter().any(Surface::sends_on) { self.depth } else { 0 },
             faintest: self.faintest,
         }
     }

@@ -16,6 +16,6 @@ pub use blackbody::planck;
 pub use index::Index;
 pub use lanes::Wavelengths;
 pub use metal::Metal;
-pub use reflectance::{Beyond, End, Reflectance};
+pub use reflectance::{Beyond, End, Reflectance, Tone};
 pub use source::{Illuminant, Line, Source, Spectrum};
 pub use table::{D65, Table, rows};

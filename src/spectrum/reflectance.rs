@@ -65,7 +65,36 @@ static PRIMARIES: LazyLock<[[f64; 4]; ROWS]> = LazyLock::new(|| {
     std::array::from_fn(|i| [rows[i][1], rows[i][2], rows[i][3], 0.0])
 });
 
+/// How far a spectrum is from daylight, or a reflectance from grey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Tone {
+    /// Daylight; or the same part of every wavelength.
+    Grey,
+    /// Daylight through one colour in sRGB; or such a colour.
+    Color,
+    /// Anything else.
+    Spectrum,
+}
+
+impl Tone {
+    /// One after the other: two colours are no colour, since their spectra multiply.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        if self == Self::Color && other == Self::Color { Self::Spectrum } else { self.max(other) }
+    }
+}
+
 impl Reflectance {
+    /// How far it is from grey where light is seen.
+    pub fn tone(&self) -> Tone {
+        match self {
+            Self::Constant(_) => Tone::Grey,
+            Self::Rgb([r, g, b]) | Self::Extended { rgb: [r, g, b], .. } if r == g && g == b => Tone::Grey,
+            Self::Rgb(_) | Self::Extended { .. } => Tone::Color,
+            Self::Table(_) => Tone::Spectrum,
+        }
+    }
+
     /// At one wavelength, nm in the surface's rest frame.
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         match self {

@@ -1,6 +1,6 @@
 //! Light sources' spectra: a smooth part at any wavelength, and lines.
 
-use super::{D65, Reflectance, Table, planck};
+use super::{D65, Reflectance, Table, Tone, planck};
 use crate::color;
 
 /// A tabulated or defined CIE illuminant.
@@ -160,6 +160,16 @@ impl Source {
         for (factor, smooth) in &self.smooth {
             smooth.add_to(sum, wavelengths_nm, factor * times);
         }
+    }
+
+    /// What its smooth part is beside daylight.
+    pub fn tone(&self) -> Tone {
+        let tone = |(_, smooth): &(f64, Smooth)| match smooth {
+            Smooth::Daylight => Tone::Grey,
+            Smooth::Filtered(_) => Tone::Color,
+            _ => Tone::Spectrum,
+        };
+        self.smooth.iter().map(tone).max().unwrap_or(Tone::Grey)
     }
 
     /// Whether nothing is in it.

@@ -56,6 +56,19 @@ pub struct Clearcoat {
     pub relief: Option<NormalMap>,
 }
 
+impl Gloss {
+    pub(super) fn is_textured(&self) -> bool {
+        let of_coat = |coat: &Clearcoat| {
+            coat.strength_texture.is_some() || coat.roughness_texture.is_some() || coat.relief.is_some()
+        };
+        self.base.varies()
+            || self.metal_rough.is_some()
+            || self.specular_texture.is_some()
+            || self.specular_color.as_ref().is_some_and(Paint::varies)
+            || self.clearcoat.as_ref().is_some_and(of_coat)
+    }
+}
+
 /// What a surface is at one place, for light from anywhere.
 ///
 /// Every response is linear in two spectra: `base(λ) b + tint(λ) t + w`, where b, t and w depend on directions alone.

@@ -94,6 +94,24 @@ impl Surface {
         }
     }
 
+    /// Whether it is asked what a sample sees of it: whether any number of it comes from a texture or a checker.
+    pub fn is_textured(&self) -> bool {
+        let coverage = self.veil.as_ref().and_then(|veil| veil.coverage.as_ref());
+        self.relief.is_some()
+            || coverage.is_some_and(|coverage| coverage.texture.is_some())
+            || self.glow.as_ref().and_then(|glow| glow.paint.as_ref()).is_some_and(Paint::varies)
+            || self.scatter.is_textured()
+    }
+
+    /// Whether a ray goes on from it as from a mirror or through glass.
+    pub fn sends_on(&self) -> bool {
+        match &self.scatter {
+            Scatter::Absorb | Scatter::Diffuse(_) => false,
+            Scatter::Mirror(_) | Scatter::Glass(_) | Scatter::Metal(_) | Scatter::Gloss(_) => true,
+            Scatter::Mixed(parts) => parts.iter().any(|(_, part)| part.sends_on()),
+        }
+    }
+
     /// Whether light may get through it.
     pub fn lets_through(&self) -> bool {
         let part = match &self.scatter {
@@ -118,6 +136,20 @@ impl Surface {
             Scatter::Glass(glass) => (!glass.thin).then_some(glass.medium),
             Scatter::Mixed(parts) => parts.iter().find_map(|(_, part)| part.medium()),
             _ => None,
+        }
+    }
+}
+
+impl Scatter {
+    fn is_textured(&self) -> bool {
+        match self {
+            Self::Absorb | Self::Metal(_) => false,
+            Self::Diffuse(paint) | Self::Mirror(paint) => paint.varies(),
+            Self::Gloss(gloss) => gloss.is_textured(),
+            Self::Glass(glass) => {
+                glass.amount_texture.is_some() || glass.color.as_ref().is_some_and(Paint::varies)
+            }
+            Self::Mixed(parts) => parts.iter().any(|(_, part)| part.is_textured()),
         }
     }
 }

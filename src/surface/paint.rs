@@ -1,7 +1,7 @@
 //! What part of the light a surface throws back at each place.
 
 use super::Look;
-use crate::spectrum::{Beyond, Reflectance};
+use crate::spectrum::{Beyond, Reflectance, Tone};
 use crate::texture::{Footprint, Texture};
 use glam::DVec2;
 use std::borrow::Cow;
@@ -79,6 +79,28 @@ impl Paint {
     /// One reflectance at all wavelengths and places.
     pub fn grey(value: f64) -> Self {
         Self::Even(Reflectance::Constant(value))
+    }
+
+    /// How far it is from grey, at most.
+    pub fn tone(&self) -> Tone {
+        match self {
+            Self::Even(reflectance) => reflectance.tone(),
+            Self::Colors(colors) => {
+                let [r, g, b] = colors.color;
+                let even = colors.texture.is_none() && !colors.vertex_colors;
+                if even && r == g && g == b { Tone::Grey } else { Tone::Color }
+            }
+            Self::Checker(checker) => checker.even.tone().max(checker.odd.tone()),
+        }
+    }
+
+    /// Whether it is another at another place.
+    pub fn varies(&self) -> bool {
+        match self {
+            Self::Even(_) => false,
+            Self::Colors(colors) => colors.texture.is_some(),
+            Self::Checker(_) => true,
+        }
     }
 
     /// The reflectance at a hit.

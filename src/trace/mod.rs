@@ -69,6 +69,8 @@ pub struct Lit<'a> {
     pub surroundings: &'a [Sky],
     /// Whether any surface lets light through.
     pub see_through: bool,
+    /// Whether any surface is asked what a sample sees of it.
+    pub footprints: bool,
     /// Wavelengths of all spectral lines of the scene, nm, each in its source's rest frame.
     pub lines: &'a [f64],
     /// What is shown.
@@ -304,7 +306,7 @@ impl Lit<'_> {
             lanes,
             nm: scaled(lanes, 1.0 / shift),
             path,
-            radius: path.cone.sample * way,
+            radius: if self.footprints { path.cone.sample * way } else { 0.0 },
             way,
         };
         if in_vacuum {

@@ -2,10 +2,14 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use std::path::Path;
+use terrell::error::Report;
 use terrell::exposure::{Sampling, expose};
 use terrell::film::{Negative, Reconstruction};
+use terrell::manifest::{self, Manifest};
 use terrell::observer::View;
-use terrell::scene::Scene;
+use terrell::plan::Plan;
+use terrell::scene::{Scene, compose};
 use terrell::spacetime::{Event, FourVector, Poincare, Rest, SightRay, Velocity};
 use terrell::spectrum::Wavelengths;
 use terrell::trace::{First, Light};
@@ -95,4 +99,26 @@ pub(crate) fn difference(a: &[DVec3], b: &[DVec3]) -> (f64, usize) {
         if part < 1e-4 { worst = worst.max(part) } else { others += 1 }
     }
     (worst, others)
+}
+
+/// The scene and the plan of a manifest as text, that lies beside the committed ones.
+#[track_caller]
+pub(crate) fn manifested(text: &str) -> (Manifest, Scene, Plan) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("manifests/manifested.yaml");
+    let mut report = Report::default();
+    let manifest = manifest::parse(&path, text, &mut report);
+    let scene = manifest.as_ref().and_then(|manifest| compose(manifest, &path, &mut report));
+    assert!(report.faults.is_empty(), "{:?}\n{text}", report.faults);
+    let (manifest, scene) = (manifest.unwrap(), scene.unwrap());
+    let plan = Plan::of(&manifest, &scene, &path, &mut report);
+    assert!(report.faults.is_empty(), "{:?}\n{text}", report.faults);
+    (manifest, scene, plan)
+}
+
+/// The largest difference of two pictures, in parts of the mean value of the second.
+pub(crate) fn relative_difference(a: &Negative, b: &Negative) -> f64 {
+    let all = b.xyz.iter().flatten().map(|value| f64::from(*value));
+    let mean = all.sum::<f64>() / (3 * b.xyz.len()) as f64;
+    let pairs = a.xyz.iter().flatten().zip(b.xyz.iter().flatten());
+    pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()).fold(0.0, f64::max) / mean
 }

@@ -12,7 +12,7 @@ pub(crate) use heaven::Heaven;
 pub(crate) use looking::{
     along, first, frequency, is_bright, light_at_rest, light_from, light_to, look, picture, pixel_centre,
 };
-pub(crate) use looking::{difference, exposed};
+pub(crate) use looking::{difference, exposed, manifested, relative_difference};
 pub(crate) use meshes::{built, coloured, cube, icosphere, soup, square};
 pub(crate) use numbers::{
     Dice, angle, beta, close, edge, emission_time, near, near_vector, speed, v, vectors, velocities,

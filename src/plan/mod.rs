@@ -1,4 +1,6 @@
-//! What is to be rendered: the exposures of a film, and where they go.
+//! What is to be rendered: the exposures of a film, how, and where they go.
+
+pub mod needs;
 
 use crate::error::Report;
 use crate::exposure::Sampling;
@@ -38,6 +40,8 @@ pub struct Plan {
     pub exposures: Vec<Exposure>,
     /// How finely.
     pub sampling: Sampling,
+    /// Whether all exposures are the same picture.
+    pub still: bool,
     /// How bright.
     pub white: White,
     /// Pictures per second of the film; none if no film is wanted.
@@ -78,8 +82,9 @@ impl Plan {
                     Filter::Tent => Reconstruction::Tent,
                     Filter::Box => Reconstruction::Box,
                 },
-                wavelengths: picture.wavelengths,
+                wavelengths: if needs::three_wavelengths(scene).yes { 3 } else { picture.wavelengths },
             },
+            still: needs::still(scene).yes,
             white: white(picture),
             film_rate,
             exr: manifest.output.exr,
