@@ -7,6 +7,7 @@
 //! Conventions: c = 1, lengths and times in metres, wavelengths in nanometres, angles in radians, light in watts
 //! (per steradian, square metre, nanometre) until it becomes XYZ in cd/m². See [`spacetime`] for those of relativity.
 
+pub mod chart;
 pub mod cli;
 pub mod color;
 pub mod course;

@@ -1,6 +1,7 @@
 //! The command line: flags as typed become what is meant. Only this folder and `main` print.
 #![expect(clippy::print_stderr, reason = "this is the program's voice")]
 
+mod chart;
 mod check;
 mod inspect;
 mod progress;
@@ -40,6 +41,8 @@ enum Command {
     Render(RenderArgs),
     /// Find every fault of a manifest, and say what its scene needs
     Check(CheckArgs),
+    /// Chart what each setting costs in time against what it gives in accuracy, for one exposure
+    Chart(chart::ChartArgs),
     /// Show what is in a model file: nodes, materials, lights, cameras
     Inspect(inspect::InspectArgs),
 }
@@ -112,6 +115,7 @@ pub fn run() -> ExitCode {
     let done = match cli.command {
         Command::Render(args) => render_all(&args),
         Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
+        Command::Chart(args) => pool(args.threads).and_then(|pool| pool.install(|| chart::run(&args))),
         Command::Inspect(args) => inspect::run(&args),
     };
     match done {
@@ -174,18 +178,32 @@ fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene
     report.finish(all)
 }
 
+/// The change that `--size` asks for.
+fn size_change(size: Option<&str>) -> Result<Option<(String, String)>, Error> {
+    let Some(size) = size else { return Ok(None) };
+    let sides = size.split(['x', 'X', '×']).filter(|side| side.parse::<u32>().is_ok_and(|side| side > 0));
+    if sides.count() != 2 {
+        let what = format!("`--size {size}` is not a width and a height in pixels");
+        return Err(Error::fault(Place::Command, what, "--size 1280x720"));
+    }
+    Ok(Some(("picture.size".to_owned(), size.replace(['x', 'X', '×'], " "))))
+}
+
+/// The threads that trace.
+fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Error> {
+    // Mirrors and glass are followed by recursion, at most `depth` and a hundred veils deep.
+    let mut pool = rayon::ThreadPoolBuilder::new().stack_size(16 << 20);
+    if let Some(threads) = threads {
+        pool = pool.num_threads(threads.get());
+    }
+    pool.build().map_err(|error| {
+        Error::fault(Place::Command, format!("the threads could not be started: {error}"), "--threads 2")
+    })
+}
+
 fn render_all(args: &RenderArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
-    if let Some(size) = &args.size {
-        let fine =
-            size.split(['x', 'X', '×']).filter(|side| side.parse::<u32>().is_ok_and(|side| side > 0)).count()
-                == 2;
-        if !fine {
-            let what = format!("`--size {size}` is not a width and a height in pixels");
-            return Err(Error::fault(Place::Command, what, "--size 1280x720"));
-        }
-        changes.push(("picture.size".to_owned(), size.replace(['x', 'X', '×'], " ")));
-    }
+    changes.extend(size_change(args.size.as_deref())?);
     if let Some(samples) = &args.samples {
         changes.push(("picture.samples".to_owned(), samples.clone()));
     }
@@ -196,14 +214,7 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
         let hint = "render them one by one, or leave --out away: each has an output of its own";
         return Err(Error::fault(Place::Command, "several manifests cannot go to one folder", hint));
     }
-    // Mirrors and glass are followed by recursion, at most `depth` and a hundred veils deep.
-    let mut pool = rayon::ThreadPoolBuilder::new().stack_size(16 << 20);
-    if let Some(threads) = args.threads {
-        pool = pool.num_threads(threads.get());
-    }
-    let pool = pool.build().map_err(|error| {
-        Error::fault(Place::Command, format!("the threads could not be started: {error}"), "--threads 2")
-    })?;
+    let pool = pool(args.threads)?;
     args.manifests.iter().try_for_each(|path| pool.install(|| render_one(path, &changes, args)))
 }
 

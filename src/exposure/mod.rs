@@ -1,5 +1,9 @@
 //! One picture: from sight rays to a negative.
 
+mod settle;
+
+pub use settle::{Settled, Uncertainty, expose_settled};
+
 use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::scene::Scene;
@@ -48,7 +52,7 @@ pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
 fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
     let wavelengths = Wavelengths::<N>::new();
     let offsets = sampling.reconstruction.offsets(sampling.samples);
-    let phases: Vec<f64> = (0..sampling.samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect();
+    let phases = phases(sampling.samples);
     let share = 1.0 / f64::from(sampling.samples);
     let spacing = share.sqrt();
     let expose_pixel = |column: usize, row: usize| {
@@ -68,6 +72,11 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
     };
     let xyz = by_pixel(sampling.width, sampling.height, expose_pixel);
     Negative { width: sampling.width, height: sampling.height, xyz }
+}
+
+/// The phases of a pixel's samples: where colours are parted each takes other wavelengths.
+fn phases(samples: u32) -> Vec<f64> {
+    (0..samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect()
 }
 
 /// What stands first in the way at each pixel's centre.
