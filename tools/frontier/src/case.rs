@@ -73,9 +73,11 @@ impl Case {
     fn world(&self, truth: &Truth) -> World {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let (p, q) = (axes[(truth.axis + 1) % 3], axes[(truth.axis + 2) % 3]);
-        let half = 4.0 * truth.answer.place.abs().max_element().max(1e-3 * truth.answer.s * truth.answer.omega);
+        let half =
+            4.0 * truth.answer.place.abs().max_element().max(1e-3 * truth.answer.s * truth.answer.omega);
         let corner = |a: f64, b: f64| ((p * a + q * b) * half).as_vec3();
-        let positions: Vec<Vec3> = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let positions: Vec<Vec3> =
+            vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         let mesh = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
         let form = Form::Mesh(Arc::new(Triangles::new(Arc::new(mesh))));
         let placement = Placement {
@@ -172,7 +174,12 @@ mod tests {
     #[test]
     fn at_low_speed_and_near_by_all_ways_agree() {
         let n = DVec3::new(0.48, -0.6, 0.64);
-        let case = Case { u: DVec3::new(0.1, 0.2, -0.1), origin: (-10.0, n * 10.0 + 0.25), eye: (0.0, DVec3::ZERO), n };
+        let case = Case {
+            u: DVec3::new(0.1, 0.2, -0.1),
+            origin: (-10.0, n * 10.0 + 0.25),
+            eye: (0.0, DVec3::ZERO),
+            n,
+        };
         let truth = case.truth();
         for error in truth.errors(case.ours(&truth)) {
             assert!(error < 1e-14, "{error}");

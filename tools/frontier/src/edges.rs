@@ -2,25 +2,16 @@
 
 use crate::case::{Answer, Case, Truth, Way, in_f32, in_f64};
 use crate::double::Double;
-use crate::rgb;
+use crate::shine;
 use crate::svg::{Panel, Series, Sheet};
 use crate::thin;
-use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3};
 use std::error::Error;
 use std::path::Path;
-use std::sync::Arc;
-use terrell::color::xyz_of;
-use terrell::mesh::Mesh;
-use terrell::scene::{Placement, WorldBuilder};
-use terrell::spacetime::{Circle, Course, Event, FourVector, SightRay, Velocity, Worldline};
-use terrell::spectrum::{Source, Spectrum, Wavelengths, planck};
-use terrell::surface::{Glow, Surface};
-use terrell::trace::{Effects, Lit};
-use terrell::triangles::Triangles;
-use terrell::world::Form;
+use terrell::spacetime::{Circle, Course, Event, Velocity, Worldline};
 
 /// The greatest γ that manifests and observers may have.
-const GREATEST_GAMMA: f64 = 1e5;
+pub const GREATEST_GAMMA: f64 = 1e5;
 
 const OURS: &str = "#0a1a5c";
 const COLORS: [&str; 5] = ["#d00000", "#e69138", "#00a0a0", "#8e44ad", "#6fbf69"];
@@ -29,13 +20,13 @@ const COLORS: [&str; 5] = ["#d00000", "#e69138", "#00a0a0", "#8e44ad", "#6fbf69"
 const AXIS: DVec3 = DVec3::new(0.48, 0.6, 0.64);
 const ACROSS: DVec3 = DVec3::new(0.8, 0.0, -0.6);
 
-fn series(name: &str, code: &str, ours: bool, number: usize, points: Vec<(f64, f64)>) -> Series {
+pub fn series(name: &str, code: &str, ours: bool, number: usize, points: Vec<(f64, f64)>) -> Series {
     let color = if ours { OURS } else { COLORS[number % COLORS.len()] };
     Series { name: name.into(), code: code.into(), color, dashed: false, points }
 }
 
 /// Powers of ten with two steps between.
-fn decades(from: i32, to: i32) -> Vec<f64> {
+pub fn decades(from: i32, to: i32) -> Vec<f64> {
     (3 * from..=3 * to).map(|i| libm::pow(10.0, f64::from(i) / 3.0)).collect()
 }
 
@@ -68,18 +59,17 @@ fn of_cases(stress: &[f64], which: usize, cases: impl Fn(f64) -> Vec<Case>, take
     take.iter().enumerate().map(line).collect()
 }
 
-/// A body seen where it comes nearly straight at the eye, and where it goes.
-fn at_speed(gamma: f64) -> Vec<Case> {
-    let u = Velocity::from_gamma(gamma, AXIS).proper();
-    let mut cases = Vec::new();
-    for tilt in [0.0, 0.5 / gamma, 3.0 / gamma, 0.1] {
-        for side in [1.0, -1.0] {
-            let n = (AXIS + ACROSS * tilt).normalize() * side;
-            let origin = (-10.0, n * 10.0 + ACROSS.cross(AXIS) * 0.01);
-            cases.push(Case { u, origin, eye: (0.0, DVec3::ZERO), n });
-        }
-    }
-    cases
+/// A body that comes nearly straight at the eye (`side` 1), or goes straight away (-1).
+fn at_speed(gamma: f64, side: f64) -> Vec<Case> {
+    let u = Velocity::from_gamma(gamma, AXIS).proper() * -side;
+    let case = |tilt: f64| {
+        let n = (AXIS + ACROSS * tilt).normalize();
+        // A little off its middle, as seen from its own near distance.
+        let nearness = (gamma - side * u.length() * (n.dot(AXIS))).clamp(1e-9, 1.0);
+        let origin = (-10.0, n * 10.0 + ACROSS.cross(AXIS) * (0.05 * nearness));
+        Case { u, origin, eye: (0.0, DVec3::ZERO), n }
+    };
+    [0.0, 0.5 / gamma, 3.0 / gamma, 0.1].map(case).into()
 }
 
 /// Everything far from where coordinates begin, in space and in time.
@@ -94,16 +84,32 @@ fn far_away(distance: f64) -> Vec<Case> {
 /// A body of which is said where it was long ago.
 fn long_ago(time: f64) -> Vec<Case> {
     let u = DVec3::new(1.0, -1.0, 1.0);
-    let was = |t: f64| AXIS * 10.0 - u / 2.0 * t;
+    let was = |t: f64| AXIS * 10.0 + DVec3::new(0.25, 0.5, -0.125) - u / 2.0 * t;
     vec![Case { u, origin: (-time.floor() - 10.0, was(time.floor())), eye: (0.0, DVec3::ZERO), n: AXIS }]
 }
 
-fn panel(title: &str, x_label: &str, y_label: &str, x: (f64, f64), y: (f64, f64), series: Vec<Series>) -> Panel {
-    Panel { title: title.into(), x_label: x_label.into(), y_label: y_label.into(), x, y, series, limit: None, guide: None }
+pub fn panel(
+    title: &str,
+    x_label: &str,
+    y_label: &str,
+    x: (f64, f64),
+    y: (f64, f64),
+    series: Vec<Series>,
+) -> Panel {
+    Panel {
+        title: title.into(),
+        x_label: x_label.into(),
+        y_label: y_label.into(),
+        x,
+        y,
+        series,
+        limit: None,
+        guide: None,
+    }
 }
 
 impl Panel {
-    fn guaranteed(mut self, to: f64, words: &str) -> Self {
+    pub fn guaranteed(mut self, to: f64, words: &str) -> Self {
         self.limit = Some((to, words.into()));
         self
     }
@@ -115,11 +121,13 @@ fn speed_panels() -> Vec<Panel> {
     let relative = "relative error";
     let (x, y) = ((1.0, 1e8), (1e-17, 10.0));
     let words = "ours: γ up to 1e5";
+    let going = |gamma| at_speed(gamma, -1.0);
+    let coming = |gamma| at_speed(gamma, 1.0);
+    let panel = |title, lines| panel(title, label, relative, x, y, lines).guaranteed(GREATEST_GAMMA, words);
     vec![
-        panel("Doppler factor, coming and going", label, relative, x, y, of_cases(&gammas, 0, at_speed, &[0, 1, 2, 3]))
-            .guaranteed(GREATEST_GAMMA, words),
-        panel("How far it is (which body is in front)", label, relative, x, y, of_cases(&gammas, 1, at_speed, &[0, 1, 3, 4]))
-            .guaranteed(GREATEST_GAMMA, words),
+        panel("Doppler factor, going away", of_cases(&gammas, 0, going, &[0, 1, 2, 3])),
+        panel("Doppler factor, coming", of_cases(&gammas, 0, coming, &[0, 1, 2, 3])),
+        panel("How far it is (which body is in front)", of_cases(&gammas, 1, coming, &[0, 1, 3, 4])),
     ]
 }
 
@@ -128,87 +136,25 @@ fn distance_panels() -> Vec<Panel> {
     let (x, y) = ((1.0, 1e9), (1e-17, 1e3));
     let metres = "error of the place on the body, m";
     vec![
-        panel("Everything far from the origin, γ = 2", "place and time of all, m", metres, x, y, of_cases(&far, 2, far_away, &[0, 3, 4, 5]))
-            .guaranteed(1e9, "ours: all of it"),
-        panel("A body said by where it was long ago, γ = 2", "how long ago, m", metres, x, y, of_cases(&far, 2, long_ago, &[0, 3, 4, 5]))
-            .guaranteed(1e9, "ours: 1e-6 m at 1e9 m"),
+        panel(
+            "Everything far from the origin, γ = 2",
+            "place and time of all, m",
+            metres,
+            x,
+            y,
+            of_cases(&far, 2, far_away, &[0, 3, 4, 5]),
+        )
+        .guaranteed(1e9, "ours: all of it"),
+        panel(
+            "A body said by where it was long ago, γ = 2",
+            "how long ago, m",
+            metres,
+            x,
+            y,
+            of_cases(&far, 2, long_ago, &[0, 3, 4, 5]),
+        )
+        .guaranteed(1e9, "ours: 1e-6 m at 1e9 m"),
     ]
-}
-
-/// The luminance of a glowing body that is seen as a black body of 6500 K, with Doppler factor `doppler`.
-fn glow_seen<const N: usize>(doppler: f64, kelvin: f64) -> DVec3 {
-    let n = DVec3::NEG_Z;
-    let u = DVec3::new(0.0, 0.0, 0.5 * (doppler - 1.0 / doppler));
-    let mesh = Mesh {
-        positions: vec![Vec3::new(-1.0, -1.0, 0.0), Vec3::new(1.0, -1.0, 0.0), Vec3::new(0.0, 2.0, 0.0)],
-        triangles: vec![[0, 1, 2]],
-        ..Mesh::default()
-    };
-    let form = Form::Mesh(Arc::new(Triangles::new(Arc::new(mesh))));
-    let placement = Placement { origin: Event::new(-10.0, n * 10.0), velocity: Velocity::from_proper(u) };
-    let mut builder = WorldBuilder::default();
-    builder.add(0, placement, &form, DAffine3::IDENTITY, 0);
-    let world = builder.build();
-    let radiance = Source::new(&Spectrum::BlackBody(kelvin), 1.0);
-    let surfaces = [Surface::glowing(Glow { radiance, paint: None })];
-    let lit = Lit {
-        world: &world,
-        surfaces: &surfaces,
-        media: &[],
-        lamps: &[],
-        ambient: &[],
-        surroundings: &[],
-        see_through: false,
-        lines: &[],
-        effects: Effects::ALL,
-        depth: 1,
-        faintest: 0.0,
-    };
-    let wavelengths = Wavelengths::<N>::new();
-    let ray = SightRay { event: Event::ORIGIN, k: FourVector::new(1.0, -n) };
-    wavelengths.xyz(&lit.seen(&ray, &wavelengths).radiance)
-}
-
-/// Planck's law in SI units and f32.
-fn planck32(nm: f32, kelvin: f32) -> f32 {
-    let (h, c, k) = (6.626_070_2e-34_f32, 299_792_460.0_f32, 1.380_649e-23_f32);
-    let metres = nm * 1e-9;
-    let exponent = h * c / (metres * k * kelvin);
-    2.0 * h * c * c / metres.powi(5) / libm::expm1f(exponent) * 1e-9
-}
-
-fn light_panel() -> Panel {
-    let seen = 6500.0;
-    let truth = xyz_of(|nm| planck(nm, seen));
-    let error = |xyz: DVec3| {
-        let off = (xyz - truth).length() / truth.length();
-        if off.is_nan() { f64::INFINITY } else { off }
-    };
-    let powers = |power: i32| move |d: f64| xyz_of(|nm| planck(nm, seen / d)) * d.powi(power);
-    let gauss = |d: f64| {
-        let units = rgb::NARROW.map(|bell| rgb::bell_xyz(bell, 1.0));
-        let weights = DMat3::from_cols(units[0], units[1], units[2]).inverse() * xyz_of(|nm| planck(nm, seen / d));
-        let moved = rgb::NARROW.map(|bell| rgb::bell_xyz(bell, d));
-        DMat3::from_cols(moved[0], moved[1], moved[2]) * weights
-    };
-    let single = |d: f64| {
-        let (d, kelvin) = (d as f32, (seen / d) as f32);
-        xyz_of(|nm| f64::from(d.powi(5) * planck32(nm as f32 * d, kelvin)))
-    };
-    let methods: [(&str, &str, &dyn Fn(f64) -> DVec3); 5] = [
-        ("ours, 16 wavelengths", "16", &|d| glow_seen::<16>(d, seen / d)),
-        ("RGB times D⁵", "D⁵", &powers(5)),
-        ("RGB times D⁴", "D⁴", &powers(4)),
-        ("three narrow Gaussians, shifted", "3G", &gauss),
-        ("Planck's law in f32 and SI units", "f32", &single),
-    ];
-    let stress = decades(-6, 6);
-    let line = |(i, (name, code, of)): (usize, &(&str, &str, &dyn Fn(f64) -> DVec3))| {
-        series(name, code, i == 0, i.wrapping_sub(1), stress.iter().map(|d| (*d, error(of(*d)))).collect())
-    };
-    let lines = methods.iter().enumerate().map(line).collect();
-    panel("Light of a body that is seen as 6500 K", "Doppler factor", "relative error of XYZ", (1e-6, 1e6), (1e-6, 1e6), lines)
-        .guaranteed(2.0 * GREATEST_GAMMA, "ours: 5e-6 to 2e5")
 }
 
 /// β after a rocket's proper time, step by step (Runge and Kutta's rule).
@@ -262,8 +208,15 @@ fn rocket_panel() -> Panel {
         line
     };
     let lines = methods.iter().enumerate().map(line).collect();
-    panel("A rocket near its horizon", "γ of the rocket, cosh aτ", "relative error", (1.0, 1e8), (1e-17, 10.0), lines)
-        .guaranteed(GREATEST_GAMMA, "ours: γ up to 1e5")
+    panel(
+        "A rocket near its horizon",
+        "γ of the rocket, cosh aτ",
+        "relative error",
+        (1.0, 1e8),
+        (1e-17, 10.0),
+        lines,
+    )
+    .guaranteed(GREATEST_GAMMA, "ours: γ up to 1e5")
 }
 
 /// Where an observer at 0.9999 c is after so many turns.
@@ -325,8 +278,15 @@ fn size_panel() -> Panel {
         series(method.name(), method.code(), i == 0, i.wrapping_sub(1), points)
     };
     let lines = thin::METHODS.iter().enumerate().map(line).collect();
-    panel("Shadows on a body that shares the scene, γ = 2", "size of the body, m", "shadow rays decided wrongly", (1e-3, 1e6), (1e-4, 1.0), lines)
-        .guaranteed(1e6, "ours: none")
+    panel(
+        "Shadows on a body that shares the scene, γ = 2",
+        "size of the body, m",
+        "shadow rays decided wrongly",
+        (1e-3, 1e6),
+        (1e-4, 1.0),
+        lines,
+    )
+    .guaranteed(1e6, "ours: none")
 }
 
 /// Measures and writes `edges.svg` and `edges.csv`.
@@ -334,7 +294,7 @@ pub fn run(folder: &Path) -> Result<(), Box<dyn Error>> {
     println!("edges");
     let mut panels = speed_panels();
     panels.extend(distance_panels());
-    panels.extend([size_panel(), light_panel(), rocket_panel(), orbit_panel()]);
+    panels.extend([size_panel(), shine::light_panel(), rocket_panel(), orbit_panel()]);
     let mut table = "chart,method,stress,error\n".to_owned();
     for panel in &panels {
         for series in &panel.series {
@@ -344,7 +304,13 @@ pub fn run(folder: &Path) -> Result<(), Box<dyn Error>> {
         }
     }
     let subtitle = "Errors against closed forms and arithmetic of 32 digits, on logarithmic axes; what is off the scale is drawn at its edge. The worst of several rays at each point.\nThe green line: up to where ours is guaranteed.";
-    let sheet = Sheet { title: "Where methods fail".into(), subtitle: subtitle.into(), columns: 4, panels, shared_legend: false };
+    let sheet = Sheet {
+        title: "Where methods fail".into(),
+        subtitle: subtitle.into(),
+        columns: 3,
+        panels,
+        shared_legend: false,
+    };
     std::fs::write(folder.join("edges.svg"), sheet.svg())?;
     std::fs::write(folder.join("edges.csv"), table)?;
     Ok(())

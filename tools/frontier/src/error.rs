@@ -37,10 +37,6 @@ impl Judge {
         let mean = deltas.iter().sum::<f64>() / deltas.len() as f64;
         Errors { rmse: (off / sum).sqrt(), mean, p99: deltas[deltas.len() * 99 / 100] }
     }
-
-    pub fn developed(&self, picture: &[DVec3]) -> Vec<DVec3> {
-        picture.iter().map(|xyz| self.development.display(*xyz)).collect()
-    }
 }
 
 fn lab(development: Development, xyz: DVec3) -> DVec3 {
@@ -62,7 +58,9 @@ pub fn ciede2000(p: DVec3, q: DVec3) -> f64 {
     let g = 0.5 * (1.0 - seventh(mean_c));
     let (a1, a2) = ((1.0 + g) * p.y, (1.0 + g) * q.y);
     let (c1, c2) = (a1.hypot(p.z), a2.hypot(q.z));
-    let hue = |a: f64, b: f64| if a == 0.0 && b == 0.0 { 0.0 } else { libm::atan2(b, a).to_degrees().rem_euclid(360.0) };
+    let hue = |a: f64, b: f64| {
+        if a == 0.0 && b == 0.0 { 0.0 } else { libm::atan2(b, a).to_degrees().rem_euclid(360.0) }
+    };
     let (h1, h2) = (hue(a1, p.z), hue(a2, q.z));
     let grey = c1 * c2 == 0.0;
     let turn = match h2 - h1 {

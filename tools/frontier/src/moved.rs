@@ -49,7 +49,9 @@ impl Cloth {
         let mut known = BTreeMap::new();
         let mut cut = Vec::with_capacity(self.triangles.len());
         let mut materials = Vec::with_capacity(self.triangles.len());
-        for (triangle, material) in std::mem::take(&mut self.triangles).into_iter().zip(std::mem::take(&mut self.materials)) {
+        for (triangle, material) in
+            std::mem::take(&mut self.triangles).into_iter().zip(std::mem::take(&mut self.materials))
+        {
             let [a, b, c] = triangle;
             let mut half = |p: u32, q: u32| {
                 // Ends in one order, so that both triangles at the edge decide alike.
@@ -100,10 +102,6 @@ impl Cloths {
         }
         Self { cloths, cut }
     }
-
-    pub fn triangles(&self) -> usize {
-        self.cloths.iter().map(|cloth| cloth.triangles.len()).sum()
-    }
 }
 
 /// All bodies as they appear from one event.
@@ -131,7 +129,9 @@ impl<'a> Moved<'a> {
         let eye = stage.view.tetrad.event;
         let mut cut: std::borrow::Cow<'a, [Cloth]> = cloths.cloths.as_slice().into();
         if let Cut::Bent(pixels) = cloths.cut {
-            let (_, cone) = stage.view.sight(0.5 * DVec2::new(crate::stage::WIDTH.into(), crate::stage::HEIGHT.into()), 1.0);
+            let (_, cone) = stage
+                .view
+                .sight(0.5 * DVec2::new(crate::stage::WIDTH.into(), crate::stage::HEIGHT.into()), 1.0);
             let most = pixels * 2.0 * cone.pixel;
             for (cloth, prop) in cut.to_mut().iter_mut().zip(&stage.props) {
                 let bent = |a: DVec3, b: DVec3| {

@@ -44,7 +44,9 @@ impl<'a> Panorama<'a> {
     /// Renders what `samples` per pixel will look at.
     pub fn new(eye: &'a Eye<'a>, width: usize, samples: u32) -> Self {
         let stage = eye.stage;
-        let to_rest = stage.scene.world.frames[stage.props.iter().find(|p| p.body == 0).map_or(0, |p| p.frame)].rest_from_lab;
+        let to_rest = stage.scene.world.frames
+            [stage.props.iter().find(|p| p.body == 0).map_or(0, |p| p.frame)]
+        .rest_from_lab;
         let mut panorama = Self { eye, to_rest, width, texels: Vec::new() };
         let wanted: Vec<AtomicBool> = (0..width * width / 2).map(|_| AtomicBool::new(false)).collect();
         crate::stage::exposed(&stage.view, samples, |ray, _| {
@@ -82,7 +84,8 @@ impl<'a> Panorama<'a> {
         }
         let Some((body, met)) = nearest else { return [0.0; 4] };
         let mut facet = body.prop.facet(met.triangle);
-        facet.corners = body.prop.triangles.corners(met.triangle).map(|p| body.here_from_mesh.transform_point3(p));
+        facet.corners =
+            body.prop.triangles.corners(met.triangle).map(|p| body.here_from_mesh.transform_point3(p));
         let [r, g, b] = facet.rgb(met.weights, -n, 0.5 * step * met.s);
         [r as f32, g as f32, b as f32, 1.0]
     }

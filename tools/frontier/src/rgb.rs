@@ -121,7 +121,9 @@ impl Gaussians {
         let units = seen.map(|bell| bell_xyz(bell, 1.0));
         let weights = DMat3::from_cols(units[0], units[1], units[2]).inverse() * at_rest(eye);
         // Beyond the visible a paint is the mean of its channels.
-        let beyond = unseen.iter().map(|bell| (*bell, ambient.at(bell.0) * bell.1 * (std::f64::consts::TAU).sqrt() / 3.0));
+        let beyond = unseen
+            .iter()
+            .map(|bell| (*bell, ambient.at(bell.0) * bell.1 * (std::f64::consts::TAU).sqrt() / 3.0));
         let beyond: Vec<(Bell, f64)> = beyond.collect();
         let at = |step: usize| {
             let doppler = libm::exp((step as f64 / (STEPS - 1) as f64 * 2.0 - 1.0) * REACH);

@@ -61,7 +61,8 @@ impl<'a> Single<'a> {
             let place = |i: u32| Vec3A::from(mesh.positions[i as usize]);
             let triangle = |t: &[u32; 3]| Triangle { v0: place(t[0]), v1: place(t[1]), v2: place(t[2]) };
             let triangles: Vec<Triangle> = mesh.triangles.iter().map(triangle).collect();
-            let tree = build_cwbvh_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+            let tree =
+                build_cwbvh_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
             let (linear, offset) = single(&prop.mesh_from_rest);
             Prop32 { boost, linear, offset, triangles, tree }
         };
@@ -79,11 +80,14 @@ impl<'a> Single<'a> {
             let origin = Vec3A::from(prop.linear * x + prop.offset);
             let mut ray = Ray::new(origin, Vec3A::from(prop.linear * -k), 0.0, limit);
             let mut hit = RayHit::none();
-            let test = |ray: &Ray, id: usize| prop.triangles[prop.tree.primitive_indices[id] as usize].intersect(ray);
+            let test = |ray: &Ray, id: usize| {
+                prop.triangles[prop.tree.primitive_indices[id] as usize].intersect(ray)
+            };
             if prop.tree.ray_traverse(ray, &mut hit, test) {
                 limit = hit.t;
                 ray.tmax = hit.t;
-                nearest = Some((number, prop.tree.primitive_indices[hit.primitive_id as usize], ray, omega, k));
+                nearest =
+                    Some((number, prop.tree.primitive_indices[hit.primitive_id as usize], ray, omega, k));
             }
         }
         let (number, triangle, ray, omega, k) = nearest?;

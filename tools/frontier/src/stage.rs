@@ -15,8 +15,8 @@ use terrell::trace::Cone;
 use terrell::triangles::Triangles;
 use terrell::world::Form;
 
-pub const WIDTH: u32 = 240;
-pub const HEIGHT: u32 = 135;
+pub const WIDTH: u32 = 192;
+pub const HEIGHT: u32 = 108;
 
 /// One mesh of a body.
 pub struct Prop {

@@ -34,10 +34,10 @@ pub struct Sheet {
 }
 
 const WIDTH: f64 = 400.0;
-const HEIGHT: f64 = 300.0;
+const HEIGHT: f64 = 312.0;
 /// Around the plot of a panel: left, top, right, bottom.
 const LEFT: f64 = 58.0;
-const TOP: f64 = 34.0;
+const TOP: f64 = 46.0;
 const RIGHT: f64 = 44.0;
 const BOTTOM: f64 = 46.0;
 const HEAD: f64 = 64.0;
@@ -49,7 +49,9 @@ fn escaped(text: &str) -> String {
 
 fn text(x: f64, y: f64, size: f64, anchor: &str, color: &str, words: &str) -> String {
     let words = escaped(words);
-    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{color}\">{words}</text>\n")
+    format!(
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{color}\">{words}</text>\n"
+    )
 }
 
 fn line((x1, y1): (f64, f64), (x2, y2): (f64, f64), style: &str) -> String {
@@ -86,7 +88,7 @@ impl Panel {
     }
 
     fn axes(&self) -> String {
-        let mut out = text(LEFT, TOP - 12.0, 13.0, "start", "#111", &self.title);
+        let mut out = text(LEFT, TOP - 22.0, 13.0, "start", "#111", &self.title);
         let grid = "stroke=\"#e2e2e2\" stroke-width=\"1\"";
         let powers = |(lo, hi): (f64, f64)| libm::log10(lo).ceil() as i32..=libm::log10(hi).floor() as i32;
         let (across, up) = (powers(self.x), powers(self.y));
@@ -103,10 +105,15 @@ impl Panel {
             out += &text(x - 5.0, y + 3.5, 10.0, "end", "#444", &tick(power));
         }
         let (w, h) = (WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM);
-        out += &format!("<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{w}\" height=\"{h}\" fill=\"none\" stroke=\"#888\"/>\n");
+        out += &format!(
+            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{w}\" height=\"{h}\" fill=\"none\" stroke=\"#888\"/>\n"
+        );
         out += &text(LEFT + 0.5 * w, HEIGHT - 12.0, 11.0, "middle", "#222", &self.x_label);
         let (x, y) = (14.0, TOP + 0.5 * h);
-        out += &format!("<g transform=\"rotate(-90 {x} {y})\">{}</g>\n", text(x, y, 11.0, "middle", "#222", &self.y_label));
+        out += &format!(
+            "<g transform=\"rotate(-90 {x} {y})\">{}</g>\n",
+            text(x, y, 11.0, "middle", "#222", &self.y_label)
+        );
         out
     }
 
@@ -119,8 +126,12 @@ impl Panel {
         }
         if let Some((value, words)) = &self.limit {
             let (x, _) = self.place((*value, self.y.0));
-            out += &line((x, TOP), (x, HEIGHT - BOTTOM), "stroke=\"#1a7f37\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"");
-            out += &text(x - 4.0, TOP + 11.0, 9.0, "end", "#1a7f37", words);
+            out += &line(
+                (x, TOP),
+                (x, HEIGHT - BOTTOM),
+                "stroke=\"#1a7f37\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"",
+            );
+            out += &text(x.max(LEFT + 40.0), TOP - 6.0, 9.5, "end", "#1a7f37", words);
         }
         out
     }
@@ -134,10 +145,15 @@ impl Panel {
             let path: Vec<String> = at.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             let dash = if series.dashed { " stroke-dasharray=\"4 3\"" } else { "" };
             let color = series.color;
-            out += &format!("<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.6\"{dash}/>\n", path.join(" "));
+            out += &format!(
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.6\"{dash}/>\n",
+                path.join(" ")
+            );
             let fill = if series.dashed { "#fff" } else { color };
             for (x, y) in &at {
-                out += &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.4\" fill=\"{fill}\" stroke=\"{color}\"/>\n");
+                out += &format!(
+                    "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.4\" fill=\"{fill}\" stroke=\"{color}\"/>\n"
+                );
             }
             if let (Some((x, y)), false) = (at.last(), series.code.is_empty()) {
                 labels.push((*x, *y, &series.code, color));
@@ -156,13 +172,20 @@ fn spread(labels: &[(f64, f64, &str, &str)]) -> String {
         let width = 5.6 * words.chars().count() as f64;
         let free = |at: f64, taken: &[(f64, f64, f64)]| {
             at < HEIGHT - BOTTOM + 2.0
-                && taken.iter().all(|(tx, ty, tw)| (ty - at).abs() > 9.0 || x + 6.0 > tx + tw || x + 6.0 + width < *tx)
+                && at > TOP + 4.0
+                && taken
+                    .iter()
+                    .all(|(tx, ty, tw)| (ty - at).abs() > 9.0 || x + 6.0 > tx + tw || x + 6.0 + width < *tx)
         };
         let tried = (0..60).map(|i| y + 3.5 + if i % 2 == 0 { 0.5 } else { -0.5 } * f64::from(i));
         let at = tried.clone().find(|at| free(*at, &taken)).unwrap_or(y + 3.5);
         taken.push((x + 6.0, at, width));
         if (at - y - 3.5).abs() > 4.0 {
-            out += &line((x + 2.0, *y), (x + 6.0, at - 3.0), &format!("stroke=\"{color}\" stroke-width=\"0.6\""));
+            out += &line(
+                (x + 2.0, *y),
+                (x + 6.0, at - 3.0),
+                &format!("stroke=\"{color}\" stroke-width=\"0.6\""),
+            );
         }
         out += &text(x + 6.0, at, 9.5, "start", color, words);
     }
@@ -173,15 +196,25 @@ fn legend_entry(x: f64, y: f64, series: &Series) -> String {
     let dash = if series.dashed { " stroke-dasharray=\"4 3\"" } else { "" };
     let color = series.color;
     let fill = if series.dashed { "#fff" } else { color };
-    let mut out = line((x, y - 4.0), (x + 22.0, y - 4.0), &format!("stroke=\"{color}\" stroke-width=\"1.6\"{dash}"));
-    out += &format!("<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.4\" fill=\"{fill}\" stroke=\"{color}\"/>\n", x + 11.0, y - 4.0);
-    let code = if series.code.is_empty() { String::new() } else { format!("{}  ", series.code) };
+    let mut out =
+        line((x, y - 4.0), (x + 22.0, y - 4.0), &format!("stroke=\"{color}\" stroke-width=\"1.6\"{dash}"));
+    out += &format!(
+        "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.4\" fill=\"{fill}\" stroke=\"{color}\"/>\n",
+        x + 11.0,
+        y - 4.0
+    );
+    let known = series.code.is_empty() || series.code == series.name;
+    let code = if known { String::new() } else { format!("{}: ", series.code) };
     out + &text(x + 28.0, y, 11.0, "start", "#222", &format!("{code}{}", series.name))
 }
 
 impl Sheet {
     pub fn svg(&self) -> String {
-        let own = if self.shared_legend { 0 } else { self.panels.iter().map(|p| p.series.len()).max().unwrap_or(0) };
+        let own = if self.shared_legend {
+            0
+        } else {
+            self.panels.iter().map(|p| p.series.len()).max().unwrap_or(0)
+        };
         let cell = HEIGHT + own as f64 * ROW + if own > 0 { 14.0 } else { 0.0 };
         let rows = self.panels.len().div_ceil(self.columns);
         let shared = if self.shared_legend { self.panels.first().map_or(0, |p| p.series.len()) } else { 0 };
@@ -198,7 +231,12 @@ impl Sheet {
         for (number, panel) in self.panels.iter().enumerate() {
             let (column, row) = (number % self.columns, number / self.columns);
             let (x, y) = (WIDTH * column as f64, HEAD + cell * row as f64);
-            out += &format!("<g transform=\"translate({x} {y})\">\n{}{}{}", panel.axes(), panel.marks(), panel.lines());
+            out += &format!(
+                "<g transform=\"translate({x} {y})\">\n{}{}{}",
+                panel.axes(),
+                panel.marks(),
+                panel.lines()
+            );
             if own > 0 {
                 for (i, series) in panel.series.iter().enumerate() {
                     out += &legend_entry(LEFT, HEIGHT + 8.0 + ROW * i as f64, series);

@@ -1,4 +1,5 @@
-//! Shadow rays that start on a surface: a plate with a low fin on it, of any size, somewhere in a scene of metres.
+//! Shadow rays that start on a surface: a plate with a low fin on it, of any size, some metres from the origin, beside
+//! another of a million metres.
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::sync::Arc;
@@ -91,6 +92,10 @@ pub fn wrong(size: f64, method: Method) -> f64 {
     let placement = Placement { origin: Event::new(0.0, DVec3::ZERO), velocity };
     let mut builder = WorldBuilder::default();
     builder.add(0, placement, &Form::Mesh(triangles.clone()), map, 0);
+    // Below it, back to back, one of a million metres.
+    let centre = centre - turn * DVec3::Y * (2.0 * size.max(1.0));
+    let large = DAffine3::from_scale_rotation_translation(DVec3::new(1e6, -1e6, 1e6), turn, centre);
+    builder.add(1, placement, &Form::Mesh(triangles.clone()), large, 0);
     let world = builder.build();
     let rest_from_lab = placement.rest_from_lab();
     let sun = turn * DVec3::new(0.85, 0.5, 0.1).normalize();
