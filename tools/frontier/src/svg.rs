@@ -33,12 +33,12 @@ pub struct Sheet {
     pub shared_legend: bool,
 }
 
-const WIDTH: f64 = 400.0;
+const WIDTH: f64 = 410.0;
 const HEIGHT: f64 = 312.0;
 /// Around the plot of a panel: left, top, right, bottom.
 const LEFT: f64 = 58.0;
 const TOP: f64 = 46.0;
-const RIGHT: f64 = 44.0;
+const RIGHT: f64 = 56.0;
 const BOTTOM: f64 = 46.0;
 const HEAD: f64 = 64.0;
 const ROW: f64 = 15.0;
@@ -122,7 +122,7 @@ impl Panel {
         if let Some((value, words)) = &self.guide {
             let (_, y) = self.place((self.x.0, *value));
             out += &line((LEFT, y), (WIDTH - RIGHT, y), "stroke=\"#999\" stroke-dasharray=\"2 3\"");
-            out += &text(LEFT + 4.0, y - 3.0, 9.0, "start", "#777", words);
+            out += &text(WIDTH - RIGHT - 3.0, y - 3.0, 9.0, "end", "#777", words);
         }
         if let Some((value, words)) = &self.limit {
             let (x, _) = self.place((*value, self.y.0));
@@ -164,32 +164,76 @@ impl Panel {
     }
 }
 
-/// Labels right of their points, moved down (or up) until none lies on another.
+/// Labels of points that lie close together.
+struct Group<'a> {
+    x: f64,
+    y: f64,
+    words: Vec<(&'a str, &'a str)>,
+}
+
+/// Labels right of their points: one for those that lie together, moved down or up until none lies on another.
 fn spread(labels: &[(f64, f64, &str, &str)]) -> String {
-    let mut taken: Vec<(f64, f64, f64)> = Vec::new();
-    let mut out = String::new();
+    let mut groups: Vec<Group<'_>> = Vec::new();
     for (x, y, words, color) in labels {
-        let width = 5.6 * words.chars().count() as f64;
-        let free = |at: f64, taken: &[(f64, f64, f64)]| {
-            at < HEIGHT - BOTTOM + 2.0
-                && at > TOP + 4.0
-                && taken
-                    .iter()
-                    .all(|(tx, ty, tw)| (ty - at).abs() > 9.0 || x + 6.0 > tx + tw || x + 6.0 + width < *tx)
+        match groups.iter_mut().find(|group| (group.x - x).abs() < 45.0 && (group.y - y).abs() < 9.0) {
+            Some(group) => {
+                group.x = group.x.max(*x);
+                group.words.push((words, color));
+            }
+            None => groups.push(Group { x: *x, y: *y, words: vec![(words, color)] }),
+        }
+    }
+    // Left, top, right and bottom of what is written.
+    let mut taken: Vec<[f64; 4]> = Vec::new();
+    let mut out = String::new();
+    for Group { x, y, words } in &groups {
+        let left = x + 6.0;
+        let lines = wrapped(words, ((WIDTH - left) / 5.2).max(1.0) as usize);
+        let letters =
+            |line: &[(&str, &str)]| line.iter().map(|(words, _)| words.chars().count() + 1).sum::<usize>();
+        let right = left + 5.2 * lines.iter().map(|line| letters(line)).max().unwrap_or(0) as f64;
+        let height = 9.5 * lines.len() as f64;
+        let free = |top: f64| {
+            let clear = |[l, t, r, b]: &[f64; 4]| top + height <= *t || top >= *b || left > *r || right < *l;
+            top + height < HEIGHT - BOTTOM + 6.0 && top > TOP - 6.0 && taken.iter().all(clear)
         };
-        let tried = (0..60).map(|i| y + 3.5 + if i % 2 == 0 { 0.5 } else { -0.5 } * f64::from(i));
-        let at = tried.clone().find(|at| free(*at, &taken)).unwrap_or(y + 3.5);
-        taken.push((x + 6.0, at, width));
-        if (at - y - 3.5).abs() > 4.0 {
-            out += &line(
-                (x + 2.0, *y),
-                (x + 6.0, at - 3.0),
-                &format!("stroke=\"{color}\" stroke-width=\"0.6\""),
+        let middle = y - 0.5 * height;
+        let mut tried = (0..160).map(|i| middle + if i % 2 == 0 { 0.5 } else { -0.5 } * f64::from(i));
+        let top = tried.find(|top| free(*top)).unwrap_or(middle);
+        taken.push([left, top, right, top + height]);
+        if (top - middle).abs() > 5.0 {
+            out += &line((x + 2.0, *y), (left, top + 0.5 * height), "stroke=\"#999\" stroke-width=\"0.6\"");
+        }
+        for (i, line) in lines.iter().enumerate() {
+            let span =
+                |(words, color): &(&str, &str)| format!("<tspan fill=\"{color}\">{}</tspan>", escaped(words));
+            let spans: Vec<String> = line.iter().map(span).collect();
+            let base = top + 9.5 * i as f64 + 8.0;
+            out += &format!(
+                "<text x=\"{left:.1}\" y=\"{base:.1}\" font-size=\"9.5\">{}</text>\n",
+                spans.join(" ")
             );
         }
-        out += &text(x + 6.0, at, 9.5, "start", color, words);
     }
     out
+}
+
+/// Words in lines of no more than so many letters, where they allow it.
+fn wrapped<'a>(words: &[(&'a str, &'a str)], most: usize) -> Vec<Vec<(&'a str, &'a str)>> {
+    let mut lines: Vec<Vec<(&str, &str)>> = vec![Vec::new()];
+    let mut letters = 0;
+    for word in words {
+        let length = word.0.chars().count() + 1;
+        if letters + length > most && letters > 0 {
+            lines.push(Vec::new());
+            letters = 0;
+        }
+        letters += length;
+        if let Some(line) = lines.last_mut() {
+            line.push(*word);
+        }
+    }
+    lines
 }
 
 fn legend_entry(x: f64, y: f64, series: &Series) -> String {
