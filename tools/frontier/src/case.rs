@@ -142,16 +142,16 @@ macro_rules! common {
     };
 }
 
-common!(in_f64, f64, DVec3, as_dvec3);
+common!(in_f64, f64, DVec3, itself);
 common!(in_f32, f32, Vec3, as_vec3);
 
 /// (So that one macro serves both widths.)
-trait AsSelf {
-    fn as_dvec3(self) -> DVec3;
+trait Itself {
+    fn itself(self) -> DVec3;
 }
 
-impl AsSelf for DVec3 {
-    fn as_dvec3(self) -> DVec3 {
+impl Itself for DVec3 {
+    fn itself(self) -> DVec3 {
         self
     }
 }

@@ -30,6 +30,9 @@ pub fn decades(from: i32, to: i32) -> Vec<f64> {
     (3 * from..=3 * to).map(|i| libm::pow(10.0, f64::from(i) / 3.0)).collect()
 }
 
+/// A name, a code, and what is given for each stress.
+pub type Curve<'a, T> = (&'a str, &'a str, &'a dyn Fn(f64) -> T);
+
 /// A method that answers cases.
 type Answers<'a> = (&'a str, &'a str, &'a dyn Fn(&Case, &Truth) -> Option<Answer>);
 
@@ -82,10 +85,10 @@ fn far_away(distance: f64) -> Vec<Case> {
 }
 
 /// A body of which is said where it was long ago.
-fn long_ago(time: f64) -> Vec<Case> {
+fn long_ago(ago: f64) -> Vec<Case> {
     let u = DVec3::new(1.0, -1.0, 1.0);
     let was = |t: f64| AXIS * 10.0 + DVec3::new(0.25, 0.5, -0.125) - u / 2.0 * t;
-    vec![Case { u, origin: (-time.floor() - 10.0, was(time.floor())), eye: (0.0, DVec3::ZERO), n: AXIS }]
+    vec![Case { u, origin: (-ago.floor() - 10.0, was(ago.floor())), eye: (0.0, DVec3::ZERO), n: AXIS }]
 }
 
 pub fn panel(
@@ -183,7 +186,7 @@ fn rocket_panel() -> Panel {
         -event.x.z + 1.0 - event.t
     };
     let slow = |beta: f64| ((1.0 - beta) / (1.0 + beta)).sqrt();
-    let methods: [(&str, &str, &dyn Fn(f64) -> f64); 5] = [
+    let methods: [Curve<'_, f64>; 5] = [
         ("ours: frequency of light from ahead", "ours", &ahead),
         ("ours: lead on the light of the horizon", "lead", &behind),
         ("from β = tanh aτ, f64", "β", &|tau| slow(libm::tanh(tau))),
@@ -194,7 +197,7 @@ fn rocket_panel() -> Panel {
         ("β stepped, 1000 steps of 4th order", "RK4", &|tau| slow(stepped(tau))),
     ];
     let stress = decades(0, 8);
-    let line = |(i, (name, code, of)): (usize, &(&str, &str, &dyn Fn(f64) -> f64))| {
+    let line = |(i, (name, code, of)): (usize, &Curve<'_, f64>)| {
         let error = |gamma: &f64| {
             let tau = libm::acosh(*gamma);
             let truth = libm::exp(-tau);
@@ -254,14 +257,14 @@ fn orbit_panel() -> Panel {
         }
         x
     };
-    let methods: [(&str, &str, f64, &dyn Fn(f64) -> DVec3); 4] = [
-        ("ours", "ours", 1e9, &ours),
-        ("f32, closed form", "f32", 1e9, &single),
-        ("turned by a degree 360 times a turn, f64", "turned", 1e5, &stepped),
-        ("leapfrog, 360 steps a turn, f64", "leap", 1e5, &leapt),
+    let methods: [(f64, Curve<'_, DVec3>); 4] = [
+        (1e9, ("ours", "ours", &ours)),
+        (1e9, ("f32, closed form", "f32", &single)),
+        (1e5, ("turned by a degree 360 times a turn, f64", "turned", &stepped)),
+        (1e5, ("leapfrog, 360 steps a turn, f64", "leap", &leapt)),
     ];
     let stress = decades(0, 9);
-    let line = |(i, (name, code, most, of)): (usize, &(&str, &str, f64, &dyn Fn(f64) -> DVec3))| {
+    let line = |(i, (most, (name, code, of))): (usize, &(f64, Curve<'_, DVec3>))| {
         let stress = stress.iter().filter(|turns| *turns <= most);
         let points = stress.map(|turns| (*turns, (of(*turns) - truth(*turns)).length())).collect();
         series(name, code, i == 0, i.wrapping_sub(1), points)

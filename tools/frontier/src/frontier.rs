@@ -87,10 +87,10 @@ fn wrong<'a>(stage: &'a Stage, meet: impl Fn(&SightRay) -> Option<Found<'a>>) ->
 /// The scene with γ taken from a β that was stored in so many digits.
 pub fn from_beta(scene: &Scene, gamma_beta: impl Fn(DVec3) -> DVec3) -> Scene {
     let mut scene = scene.clone();
-    for frame in &mut scene.world.frames {
-        let beta = frame.rest_from_lab.boost().velocity().beta();
-        frame.rest_from_lab =
-            Poincare::to_moving(Velocity::from_proper(gamma_beta(beta)), frame.rest_from_lab.origin());
+    for rest in &mut scene.world.frames {
+        let beta = rest.rest_from_lab.boost().velocity().beta();
+        rest.rest_from_lab =
+            Poincare::to_moving(Velocity::from_proper(gamma_beta(beta)), rest.rest_from_lab.origin());
     }
     scene
 }

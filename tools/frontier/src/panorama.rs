@@ -45,7 +45,7 @@ impl<'a> Panorama<'a> {
     pub fn new(eye: &'a Eye<'a>, width: usize, samples: u32) -> Self {
         let stage = eye.stage;
         let to_rest = stage.scene.world.frames
-            [stage.props.iter().find(|p| p.body == 0).map_or(0, |p| p.frame)]
+            [stage.props.iter().find(|p| p.body == 0).map_or(0, |p| p.number)]
         .rest_from_lab;
         let mut panorama = Self { eye, to_rest, width, texels: Vec::new() };
         let wanted: Vec<AtomicBool> = (0..width * width / 2).map(|_| AtomicBool::new(false)).collect();

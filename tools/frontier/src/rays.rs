@@ -26,13 +26,13 @@ pub fn by_s<'a>(stage: &'a Stage, ray: &SightRay) -> Option<Found<'a>> {
 /// Unit directions in each rest frame; the nearest of each is transformed back, and the latest event is seen.
 pub fn by_time<'a>(stage: &'a Stage, ray: &SightRay) -> Option<Found<'a>> {
     let mut latest: Option<(f64, Found<'a>)> = None;
-    for frame in 0..stage.scene.world.frames.len() {
-        let to_rest = stage.scene.world.frames[frame].rest_from_lab;
+    for (number, rest) in stage.scene.world.frames.iter().enumerate() {
+        let to_rest = rest.rest_from_lab;
         let rest = ray.to(&to_rest);
         let n = -rest.k.x / rest.k.x.length();
         let mut limit = f64::INFINITY;
         let mut nearest = None;
-        for prop in stage.props.iter().filter(|prop| prop.frame == frame) {
+        for prop in stage.props.iter().filter(|prop| prop.number == number) {
             let line = Line {
                 origin: prop.mesh_from_rest.transform_point3(rest.event.x),
                 step: prop.mesh_from_rest.transform_vector3(n),

@@ -73,7 +73,7 @@ impl ByHue {
 /// Hue in sixths of a circle, and the largest channel, of a colour whose smallest channel is zero.
 fn hue(rgb: DVec3) -> (f64, f64) {
     let most = rgb.max_element();
-    if !(most > 0.0) {
+    if most <= 0.0 {
         return (0.0, 0.0);
     }
     let DVec3 { x: r, y: g, z: b } = rgb / most;

@@ -1,6 +1,6 @@
 //! The light of a black body, by ours and by what is commonly done, at any Doppler factor.
 
-use crate::edges::{GREATEST_GAMMA, decades, panel, series};
+use crate::edges::{Curve, GREATEST_GAMMA, decades, panel, series};
 use crate::rgb;
 use crate::svg::{Panel, Series};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
@@ -51,7 +51,7 @@ fn glow_seen<const N: usize>(doppler: f64, kelvin: f64) -> DVec3 {
 
 /// Planck's law in SI units and f32.
 fn planck32(nm: f32, kelvin: f32) -> f32 {
-    let (h, c, k) = (6.626_070_2e-34_f32, 299_792_460.0_f32, 1.380_649e-23_f32);
+    let (h, c, k) = (6.626_07e-34_f32, 299_792_460.0_f32, 1.380_649e-23_f32);
     let metres = nm * 1e-9;
     let exponent = h * c / (metres * k * kelvin);
     2.0 * h * c * c / metres.powi(5) / libm::expm1f(exponent) * 1e-9
@@ -76,7 +76,7 @@ pub fn light_panel() -> Panel {
         let (d, kelvin) = (d as f32, (seen / d) as f32);
         xyz_of(|nm| f64::from(d.powi(5) * planck32(nm as f32 * d, kelvin)))
     };
-    let methods: [(&str, &str, &dyn Fn(f64) -> DVec3); 6] = [
+    let methods: [Curve<'_, DVec3>; 6] = [
         ("ours, 64 wavelengths", "64", &|d| glow_seen::<64>(d, seen / d)),
         ("ours, 16 wavelengths", "16", &|d| glow_seen::<16>(d, seen / d)),
         ("RGB times D⁵", "D⁵", &powers(5)),
@@ -87,7 +87,7 @@ pub fn light_panel() -> Panel {
     let mut stress = decades(-6, 6);
     stress.extend([-0.2, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.2].map(|power| libm::pow(10.0, power)));
     stress.sort_unstable_by(f64::total_cmp);
-    let line = |(i, (name, code, of)): (usize, &(&str, &str, &dyn Fn(f64) -> DVec3))| {
+    let line = |(i, (name, code, of)): (usize, &Curve<'_, DVec3>)| {
         let points = stress.iter().map(|d| (*d, error(of(*d)))).collect();
         Series { dashed: i == 1, ..series(name, code, i < 2, i.wrapping_sub(2), points) }
     };

@@ -22,7 +22,7 @@ pub const HEIGHT: u32 = 108;
 pub struct Prop {
     pub rest_from_lab: Poincare<Rest>,
     /// Number of the rest frame, and of the body.
-    pub frame: usize,
+    pub number: usize,
     pub body: u32,
     pub triangles: Arc<Triangles>,
     pub rest_from_mesh: DAffine3,
@@ -78,7 +78,7 @@ impl Stage {
     fn of(scene: Scene) -> Result<Self, Box<dyn Error>> {
         let view = scene.observer.view(0.0, WIDTH, HEIGHT);
         let mut props = Vec::new();
-        for (frame, rest) in scene.world.frames.iter().enumerate() {
+        for (number, rest) in scene.world.frames.iter().enumerate() {
             for placed in &rest.placed {
                 let Form::Mesh(triangles) = &placed.form else { return Err("a solid".into()) };
                 let materials = triangles.mesh.parts.iter().map(|part| part.material + 1).max().unwrap_or(1);
@@ -88,7 +88,7 @@ impl Stage {
                 };
                 props.push(Prop {
                     rest_from_lab: rest.rest_from_lab,
-                    frame,
+                    number,
                     body: placed.body,
                     triangles: triangles.clone(),
                     rest_from_mesh: placed.rest_from_form,
