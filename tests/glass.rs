@@ -89,12 +89,12 @@ fn half_space(index: Index, velocity: Velocity) -> Body {
 }
 
 /// How light that meets a moving half space (x > 0) at an angle goes on within it: for how long, and from where to where.
-/// It is measured as light that goes out with everything turned back in time.
-pub(crate) fn within_moving_glass(incidence: f64, b: DVec3) -> (f64, DVec3) {
+/// It is measured as light that goes out with everything turned back in time, at one of 64 wavelengths.
+pub(crate) fn within_moving_glass(index: Index, chosen: usize, incidence: f64, b: DVec3) -> (f64, DVec3) {
     let (sin, cos) = libm::sincos(incidence);
     // The light moves along (cos, sin); turned back in time it leaves along (-cos, -sin) and the glass moves by -b.
     let velocity = Velocity::from_beta(-b).unwrap();
-    let block = half_space(GLASS, velocity);
+    let block = half_space(index, velocity);
     let rest_from_lab: Poincare<Rest> = block.placement.rest_from_lab();
     let out = Event::ORIGIN;
     let ray = SightRay {
@@ -108,9 +108,9 @@ pub(crate) fn within_moving_glass(incidence: f64, b: DVec3) -> (f64, DVec3) {
         .mapped(DAffine3::from_mat3(turned * half))
         .mapped(DAffine3::from_translation(v(depth, 0.0, 0.0)))
         .moving(velocity);
-    let part = plain(std::slice::from_ref(&block), &screen, &ray)[0];
+    let part = plain(std::slice::from_ref(&block), &screen, &ray)[chosen];
     let events = seen_on_screen(std::slice::from_ref(&block), &screen, half, &ray, part, (-40.0, 40.0));
-    let inside = rest_from_lab.undo(events[0]);
+    let inside = rest_from_lab.undo(events[chosen]);
     (out.t - inside.t, inside.x - out.x)
 }
 
@@ -126,7 +126,7 @@ fn light_in_moving_glass_has_the_direction_and_the_speed_of_the_table() {
         (v(0.0, 0.9, 0.0), 66.2193, 0.888_858),
     ];
     for (b, angle, pace) in table {
-        let (t, way) = within_moving_glass(30.0_f64.to_radians(), b);
+        let (t, way) = within_moving_glass(GLASS, 0, 30.0_f64.to_radians(), b);
         near(libm::atan2(way.y, way.x).to_degrees(), angle, 2e-4);
         near(way.length() / t, pace, 2e-6);
         near(way.z, 0.0, 1e-5);

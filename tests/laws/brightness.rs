@@ -19,9 +19,9 @@ chapter! {
     sky_ahead_has_its_colour, "V3", "XYZ of B(λ, DT), 64 wavelengths against the 1 nm sum", "CIE 015:2018", 2e-3;
     whole_sky_gains_energy, "V3", "mean of D⁴ over the sphere = γ²(1 + β²/3)", "McKinley 1979", 1e-12;
     whole_sky_pushes_back, "V3", "mean of D⁴ cos θ′ = (4/3)γ²β, in units of u c", "McKinley 1979", 1e-12;
-    photons_over_the_sphere_are_conserved, "V15 (f)", "∮∫ L λ dλ dΩ = 4πγ · 2hc² (kT/hc)³ 2ζ(3)", "n⁰ of the photon current is γn", 1e-11;
+    photons_over_the_sphere_are_conserved, "V15 (f)", "∮∫ L λ dλ dΩ = 4πγ · 2hc² (kT/hc)³ 2ζ(3)", "n⁰ of the photon current is γn", 1e-12;
     photons_of_six_pictures_are_conserved, "V15 (f)", "the same as a sum over the pixels of six pictures", "midpoint rule, 6 × 64²", 1e-3;
-    microwave_sky_has_its_dipole, "V3", "½[T(0) − T(π)] = T₀γβ, ½[T(0) + T(π)] = T₀γ", "Planck 2018", 1e-11;
+    microwave_sky_has_its_dipole, "V3", "½[T(0) − T(π)] = T₀γβ, ½[T(0) + T(π)] = T₀γ", "Planck 2018", 1e-12;
 }
 
 const SPEEDS: [f64; 6] = [0.1, 0.3, 0.5, 0.8, 0.9, 0.99];

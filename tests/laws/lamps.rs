@@ -15,13 +15,13 @@ use terrell::spectrum::{Source, Wavelengths, planck};
 
 chapter! {
     "Lamps and shadows":
-    irradiance_goes_with_the_third_power_and_the_distance_at_the_lamp, "V12", "E(λ) = D³ I′(Dλ) cos θ/r′²", "invariance of L_ν/ν³, r′ = r/D", 1e-9;
-    irradiance_goes_with_the_fifth_power_and_the_distance_at_the_surface, "V12", "E(λ) = D⁵ I′(Dλ)/r²: a black body of DT", "invariance of L_ν/ν³", 1e-9;
-    whole_irradiance_goes_with_the_square, "V12", "∫E dλ = D² ∫I′ dλ cos θ/r′²", "invariance of L_ν/ν³", 1e-9;
+    irradiance_goes_with_the_third_power_and_the_distance_at_the_lamp, "V12", "E(λ) = D³ I′(Dλ) cos θ/r′²", "invariance of L_ν/ν³, r′ = r/D", 1e-11;
+    irradiance_goes_with_the_fifth_power_and_the_distance_at_the_surface, "V12", "E(λ) = D⁵ I′(Dλ)/r²: a black body of DT", "invariance of L_ν/ν³", 1e-11;
+    whole_irradiance_goes_with_the_square, "V12", "∫E dλ = D² ∫I′ dλ cos θ/r′²", "invariance of L_ν/ν³", 1e-11;
     passing_lamp_gives_the_light_of_the_table, "V12", "D⁴I/r²: 0.1736111 and 0.0455111 of I (seven digits)", "x = 0.6 t, y = 3", 2e-6;
     cosine_is_that_in_the_rest_frame_of_the_surface, "V12", "light square to the motion arrives at cos θ = 1/γ", "aberration", 1e-12;
-    sun_in_motion_shines_with_the_third_power, "V12", "E(λ) = D³ E′(Dλ) cos θ", "invariance of L_ν/ν³", 1e-9;
-    irradiance_is_the_same_from_every_frame, "V12", "boosted lamp, patch and ray", "relativity", 1e-9;
+    sun_in_motion_shines_with_the_third_power, "V12", "E(λ) = D³ E′(Dλ) cos θ", "invariance of L_ν/ν³", 1e-12;
+    irradiance_is_the_same_from_every_frame, "V12", "boosted lamp, patch and ray", "relativity", 1e-10;
     shadow_edge_lags, "V13", "0.6 X = β[t − √((0.4 X)² + 4)] on the floor", "light's way past the edge", 1e-8;
     shadow_edge_is_seen_later_still, "V13", "the same with t = tₒ − |x − X|", "V7 and V13", 1e-9;
 }

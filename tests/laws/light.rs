@@ -16,12 +16,12 @@ chapter! {
     "Directions and frequencies":
     starlight_is_aberrated, "V1", "cos θ′ = (cos θ + β)/(1 + β cos θ), in one plane with the motion", "Einstein 1905 §7", 1e-11;
     half_angles_shrink_by_one_factor, "V1", "tan(θ′/2) = √((1−β)/(1+β)) tan(θ/2)", "Penrose 1959", 1e-10;
-    front_half_of_the_sky_is_a_cone, "V1", "half angle arccos β", "Penrose 1959", 1e-11;
-    stars_of_the_year_move_by_the_angle_of_bradley, "V1", "sin α = β at right angles to the motion; seconds of arc", "Bradley 1727", 1e-6;
+    front_half_of_the_sky_is_a_cone, "V1", "half angle arccos β", "Penrose 1959", 1e-12;
+    stars_of_the_year_move_by_the_angle_of_bradley, "V1", "sin α = β at right angles to the motion; seconds of arc", "Bradley 1727", 1e-9;
     frequency_goes_by_the_angle_of_the_source, "V2", "D = γ(1 + β cos θ)", "Einstein 1905 §7", 1e-11;
-    frequency_goes_by_the_angle_that_is_seen, "V2", "D = 1/[γ(1 − β cos θ′)]", "Einstein 1905 §7", 1e-11;
+    frequency_goes_by_the_angle_that_is_seen, "V2", "D = 1/[γ(1 − β cos θ′)]", "Einstein 1905 §7", 1e-12;
     approach_and_recession_are_reciprocal, "V2", "D(0) = √((1+β)/(1−β)) = 1/D(π)", "Einstein 1905 §7", 1e-11;
-    colours_are_unshifted_on_one_cone, "V2", "cos θ′ = (1 − 1/γ)/β", "D = 1", 1e-11;
+    colours_are_unshifted_on_one_cone, "V2", "cos θ′ = (1 − 1/γ)/β", "D = 1", 1e-12;
     light_seen_square_to_the_motion_is_red, "V2", "D = 1/γ", "Einstein 1905 §7", 1e-11;
     both_ends_may_move, "V2", "D = γₒ(1 − βₒ·n)/[γₛ(1 − βₛ·n)]", "k·u", 1e-12;
     sodium_line_arrives_shifted, "V2", "589 nm at λ/D with the power D⁴", "Einstein 1905 §7", 1e-11;

@@ -10,14 +10,14 @@ use terrell::spacetime::{
 chapter! {
     "Observers":
     rocket_moves_on_a_hyperbola, "V9", "t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a, v = tanh(aτ)", "Rindler, Relativity", 1e-12;
-    rocket_sees_ahead_blue, "V9", "D = exp(aτ) straight ahead, exp(−aτ) astern", "Rindler, Relativity", 1e-10;
+    rocket_sees_ahead_blue, "V9", "D = exp(aτ) straight ahead, exp(−aτ) astern", "Rindler, Relativity", 1e-11;
     one_g_reaches_the_stars, "V9", "t, x, γ after 1, 2, 5, 8, 12 years at 9.80665 m/s² (six digits)", "Rindler, Relativity", 4e-6;
     circling_clock_runs_slow, "V9", "t = γτ", "Einstein 1905 §4", 1e-12;
     circling_observer_sees_the_centre_blue, "V9", "D = γ", "Einstein 1905 §7", 1e-12;
     centre_sees_what_circles_red, "V9", "D = 1/γ", "Einstein 1905 §7", 1e-12;
-    rindler_observers_see_each_other_shifted, "V9", "D = Xₑ/Xₒ", "Rindler, Relativity", 1e-9;
+    rindler_observers_see_each_other_shifted, "V9", "D = Xₑ/Xₒ", "Rindler, Relativity", 1e-12;
     crossed_boosts_turn_by_the_wigner_angle, "V14", "cos Ω = (γ₁ + γ₂)/(1 + γ₁γ₂), γ = γ₁γ₂", "Wigner 1939", 1e-12;
-    any_two_boosts_turn_by_the_wigner_angle, "V14", "1 + cos Ω = (1 + γ + γ₁ + γ₂)²/[(1 + γ)(1 + γ₁)(1 + γ₂)]", "Macfarlane 1962", 1e-11;
+    any_two_boosts_turn_by_the_wigner_angle, "V14", "1 + cos Ω = (1 + γ + γ₁ + γ₂)²/[(1 + γ)(1 + γ₁)(1 + γ₂)]", "Macfarlane 1962", 1e-12;
     composed_velocity_is_the_sum_of_einstein, "V14", "β = [β₁ + β₂/γ₁ + γ₁β₁(β₁·β₂)/(1 + γ₁)]/(1 + β₁·β₂)", "Einstein 1905 §5", 1e-12;
 }
 

@@ -6,23 +6,23 @@ use crate::support::{
     glowing, light_from, plane, speed, v,
 };
 use glam::{DAffine3, DQuat, DVec3};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use terrell::scene::Scene;
 use terrell::spacetime::Event;
 
 chapter! {
     "Shapes and places":
-    outline_of_a_ball_is_the_circle_of_penrose, "V4", "rim n·c = √(1 − R²/d²) in its rest frame, boosted as a plane; any observer", "Penrose 1959; Boas 1961", 1e-9;
-    far_ball_is_seen_turned, "V4, V5", "normal in the middle −β x − y/γ: turned by arcsin β", "Terrell 1959", 1e-5;
+    outline_of_a_ball_is_the_circle_of_penrose, "V4", "rim n·c = √(1 − R²/d²) in its rest frame, boosted as a plane; any observer", "Penrose 1959; Boas 1961", 1e-11;
+    far_ball_is_seen_turned, "V4, V5, V8", "by θ − θ′ with cos θ′ = (cos θ − β)/(1 − β cos θ): arcsin β at 90°", "Terrell 1959", 1e-8;
     far_cube_is_seen_turned, "V5", "front L/γ, trailing side Lβ: the cube at rest turned by arcsin β", "Terrell 1959; Weisskopf 1960", 1e-5;
-    approaching_rods_are_long_and_receding_ones_short, "V6", "L √((1±β)/(1∓β))", "Lampa 1924", 1e-9;
+    approaching_rods_are_long_and_receding_ones_short, "V6", "L √((1±β)/(1∓β))", "Lampa 1924", 1e-10;
     apparent_speed_goes_by_the_angle, "V6", "β sin θ/(1 − β cos θ) across, β cos θ/(1 − β cos θ) along", "Rees 1966", 1e-6;
-    fastest_apparent_speed_is_at_the_angle_of_beaming, "V6", "βγ at cos θ = β", "Rees 1966", 1e-5;
+    fastest_apparent_speed_is_at_the_angle_of_beaming, "V6", "βγ at cos θ = β", "Rees 1966", 1e-8;
     bodies_are_seen_where_they_were, "V7", "t = γ²[tₒ + βx₀ − √((βtₒ + x₀)² + ρ²/γ²)], x = x₀ + βt", "Müller & Boblest 2014", 1e-8;
     line_square_to_its_motion_is_a_hyperbola, "V8", "(x/γβd)² − (y/d)² = 1, x < 0", "Kraus", 1e-8;
-    line_along_its_motion_is_straight, "V8", "y and z stay", "Kraus", 1e-8;
-    plane_square_to_its_motion_is_a_hyperboloid, "V8", "z = βt, (z − zₒ)² + x² + y² = t²", "Müller & Boblest 2014", 1e-10;
-    corners_of_dice_in_a_row_are_where_light_left_them, "V8", "V7 for each corner; pixels of a picture 1000 wide", "Kraus", 1e-3;
+    line_along_its_motion_is_straight, "V8", "y and z stay", "Kraus", 1e-9;
+    plane_square_to_its_motion_is_a_hyperboloid, "V8", "z = βt, (z − zₒ)² + x² + y² = t²", "Müller & Boblest 2014", 1e-11;
+    corners_of_dice_in_a_row_are_where_light_left_them, "V8", "V7 for each corner; pixels of a picture 1000 wide", "Kraus", 1e-10;
 }
 
 const SPEEDS: [f64; 7] = [0.1, 0.3, 0.5, 0.6, 0.8, 0.9, 0.99];
@@ -69,14 +69,21 @@ fn outline_of_a_ball_is_the_circle_of_penrose() -> f64 {
 /// Far enough away for its light to be parallel.
 const FAR: f64 = 1e6;
 
+/// A ball that moves along x at θ to the light that leaves it for the origin.
 fn far_ball_is_seen_turned() -> f64 {
     let mut worst = Worst::default();
     for b in SPEEDS {
-        let ball = Body::of(ball(1.0, DVec3::ZERO), black()).at(-FAR, turn() * v(0.0, FAR, 0.0));
-        let scene = Stage::of([ball.moving(speed(b, turn() * DVec3::X))]).scene();
-        let ray = light_from(turn() * v(0.0, FAR, 0.0), Event::ORIGIN);
-        let hit = scene.world.nearest(&ray).unwrap();
-        worst.directions(turn().inverse() * hit.spot(&ray).normal, v(-b, -1.0 / gamma(b), 0.0));
+        for theta in [0.3, 1.0, FRAC_PI_2, 2.0, 2.9] {
+            let (sin, cos) = libm::sincos(theta);
+            let place = turn() * v(-cos, sin, 0.0) * FAR;
+            let ball = Body::of(ball(1.0, DVec3::ZERO), black()).at(-FAR, place);
+            let scene = Stage::of([ball.moving(speed(b, turn() * DVec3::X))]).scene();
+            let ray = light_from(place, Event::ORIGIN);
+            let hit = scene.world.nearest(&ray).unwrap();
+            let shown = libm::acos((cos - b) / (1.0 - b * cos));
+            let (sin, cos) = libm::sincos(shown);
+            worst.directions(turn().inverse() * hit.spot(&ray).normal, v(cos, -sin, 0.0));
+        }
     }
     worst.0
 }

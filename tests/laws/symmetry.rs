@@ -15,15 +15,15 @@ use terrell::spacetime::{Event, Poincare, Velocity};
 
 chapter! {
     "Symmetries":
-    flying_camera_equals_flying_world, "V15 (a)", "the same picture; part of a pixel's light", "relativity", 1e-9;
-    boosting_everything_changes_nothing, "V15 (b)", "the same picture; part of a pixel's light", "relativity", 1e-8;
+    flying_camera_equals_flying_world, "V15 (a)", "the same picture; part of a pixel's light", "relativity", 1e-10;
+    boosting_everything_changes_nothing, "V15 (b)", "the same picture; part of a pixel's light", "relativity", 1e-9;
     slow_motion_is_classical, "V15 (c)", "change ∝ β: order 1, fitted from 0.0001 to 0.001 c", "β → 0", 0.05;
     sphere_of_triangles_converges_with_the_square_of_its_edges, "V15 (d)", "outline's error ∝ h²: order 2, fitted over 320 to 20,480 triangles", "chord and arc", 0.1;
-    order_of_bodies_and_lamps_changes_nothing, "V15 (e)", "the same picture; part of a pixel's light", "light adds", 1e-11;
-    lamps_add, "V15 (g)", "picture of A and B = picture of A + picture of B", "linearity", 1e-11;
-    turning_everything_changes_nothing, "", "scene and camera turned together: the same picture", "isotropy of space", 1e-8;
-    turning_glass_and_skies_changes_nothing, "", "the same with glass, panoramas, stars and clocks", "isotropy of space", 1e-5;
-    lamp_and_pinhole_may_be_exchanged, "", "time reversed: H(λ)/I(Dλ) = D⁸ H(Dλ)/I(λ), D from lamp to pinhole", "Helmholtz reciprocity; k·u", 1e-9;
+    order_of_bodies_and_lamps_changes_nothing, "V15 (e)", "the same picture; part of a pixel's light", "light adds", 1e-12;
+    lamps_add, "V15 (g)", "picture of A and B = picture of A + picture of B", "linearity", 1e-12;
+    turning_everything_changes_nothing, "", "scene and camera turned together: the same picture", "isotropy of space", 1e-10;
+    turning_glass_and_skies_changes_nothing, "", "the same with glass, panoramas, stars and clocks", "isotropy of space", 1e-9;
+    lamp_and_pinhole_may_be_exchanged, "", "time reversed: H(λ)/I(Dλ) = D⁸ H(Dλ)/I(λ), D from lamp to pinhole", "Helmholtz reciprocity; k·u", 1e-11;
 }
 
 /// The largest difference of two pictures; pixels that an edge passes may differ, one in a thousand.
@@ -200,7 +200,8 @@ fn turning_glass_and_skies_changes_nothing() -> f64 {
     let mut dice = Dice(361);
     let stage = light_equivalence::stage(&mut dice, 0.6);
     let eyes = light_equivalence::eyes(&mut dice);
-    differ_by_turns(&stage, &eyes[..2], &mut dice, light_equivalence::SIZE)
+    // Colours that glass parts take their time: a small picture.
+    differ_by_turns(&stage, &eyes[..2], &mut dice, (36, 27))
 }
 
 /// Someone who passes a place at a time, and who moves.
