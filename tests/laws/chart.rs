@@ -101,10 +101,11 @@ const HEAD: &str = "
 ## Colour by the number of wavelengths
 
 CIEDE2000 between what tracing shows with 8, 16, 32 and 64 wavelengths and the whole integral (0.1 nm), over the 24 patches
-of the Macbeth chart (spectra of Ohta 1997, 5 nm, linear in between): the largest difference, and the mean. Chart and lamp
-rest beside each other, the observer comes up at β (recedes where β is negative). The white is that of the perfect diffuser at rest
-in the same light, and the exposure is that of the chart at rest, also where the chart in motion is brighter or darker than that: so only
-the sum over wavelengths counts, but ΔE above the white (approaching) is in a range where it was never measured.
+of the Macbeth chart (spectra of Ohta 1997, 5 nm, linear in between, the ends held): the largest difference, and the mean.
+Chart and lamp rest beside each other, the observer comes up at β (recedes where β is negative). White and exposure are
+those of the perfect diffuser at rest in the same light, also where the chart in motion is brighter or darker than it: so
+only the sum over wavelengths counts. What approaches is up to ten times as bright as that white, and ΔE says little
+there: it was made for colours of surfaces.
 
 | light | β | 8: max, mean | 16: max, mean | 32: max, mean | 64: max, mean |
 | --- | --- | --- | --- | --- | --- |

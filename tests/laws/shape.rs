@@ -5,7 +5,7 @@ use crate::support::{
     Body, Dice, Eye, Stage, along, angle, ball, black, black_body, built, cube, edge, emission_time, first,
     glowing, light_from, plane, speed, v,
 };
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use terrell::scene::Scene;
 use terrell::spacetime::Event;
@@ -22,7 +22,7 @@ chapter! {
     line_square_to_its_motion_is_a_hyperbola, "V8", "(x/γβd)² − (y/d)² = 1, x < 0", "Kraus", 1e-8;
     line_along_its_motion_is_straight, "V8", "y and z stay", "Kraus", 1e-9;
     plane_square_to_its_motion_is_a_hyperboloid, "V8", "z = βt, (z − zₒ)² + x² + y² = t²", "Müller & Boblest 2014", 1e-11;
-    corners_of_dice_in_a_row_are_where_light_left_them, "V8", "V7 for each corner; pixels of a picture 1000 wide", "Kraus", 1e-10;
+    edges_of_dice_in_a_row_are_where_light_left_them, "V8", "V7 for points of the edges; pixels of a picture 1000 wide", "Kraus", 1e-10;
 }
 
 const SPEEDS: [f64; 7] = [0.1, 0.3, 0.5, 0.6, 0.8, 0.9, 0.99];
@@ -260,30 +260,48 @@ fn plane_square_to_its_motion_is_a_hyperboloid() -> f64 {
     worst.0
 }
 
-/// Each of a row of dice has its corners, and so its edges, where the past light cone has them, to a part of a pixel.
-fn corners_of_dice_in_a_row_are_where_light_left_them() -> f64 {
+/// The near sides of a row of dice: points of their edges are where the past light cone has them, to a part of a pixel.
+fn edges_of_dice_in_a_row_are_where_light_left_them() -> f64 {
     let mut worst = Worst::default();
     let eye = Eye::at(3.0, v(0.0, 0.0, 1.0)).toward(v(-0.9, 0.4, 0.0)).wide(100.0);
     let view = eye.observer().view(0.0, 1000, 700);
+    let corners = [v(-0.5, -0.5, -0.5), v(0.5, -0.5, -0.5), v(0.5, -0.5, 0.5), v(-0.5, -0.5, 0.5)];
+    let mut met = 0;
     for b in SPEEDS {
-        let moves = speed(b, DVec3::X);
         for place in [-12.0, -8.0, -4.0, 0.0, 4.0] {
-            let body =
-                Body::new(&built(cube()), black()).sized(0.5).at(0.0, v(place, 4.0, 0.0)).moving(moves);
-            let scene = Stage::of([body]).seen_by(&eye);
-            for corner in [v(-0.5, -0.5, 0.5), v(-0.5, -0.5, -0.5)] {
-                let path = |t: f64| v(place + corner.x / gamma(b) + b * t, 4.0 + corner.y, corner.z);
-                let light = light_from(path(emission_time(eye.origin, path)), eye.origin);
-                let Some(pixel) = view.pixel_of(light.k) else { continue };
-                // Left of the near side's left edges there may be the trailing side; below and above there is nothing.
-                let up = glam::DVec2::new(0.0, if corner.z > 0.0 { -1.0 } else { 1.0 });
-                let hits = |off: f64| scene.lit().first(&view.ray(pixel - up * off)).is_some();
-                if hits(0.5) && !hits(-0.5) {
-                    worst.apart(edge(0.5, -0.5, hits), 0.0);
+            let body = Body::new(&built(cube()), black()).sized(0.5).at(0.0, v(place, 4.0, 0.0));
+            let scene = Stage::of([body.moving(speed(b, DVec3::X))]).seen_by(&eye);
+            // By V7, from a place in the rest frame.
+            let image = |rest: DVec3| {
+                let path = |t: f64| v(place + rest.x / gamma(b) + b * t, 4.0 + rest.y, rest.z);
+                view.pixel_of(light_from(path(emission_time(eye.origin, path)), eye.origin).k)
+            };
+            let shows = |pixel: DVec2| {
+                let ray = view.ray(pixel);
+                let hit = scene.world.nearest(&ray);
+                hit.is_some_and(|hit| (hit.spot(&ray).facet_normal - DVec3::NEG_Y).length() < 1e-6)
+            };
+            for i in 0..20 {
+                let (from, to) = (corners[i % 4], corners[(i + 1) % 4]);
+                let part = 0.07 + 0.21 * (i / 4) as f64;
+                let [at, next, middle] =
+                    [from.lerp(to, part), from.lerp(to, part + 1e-4), v(0.0, -0.5, 0.0)].map(image);
+                let (Some(at), Some(next), Some(middle)) = (at, next, middle) else { continue };
+                let across = (next - at).perp().normalize();
+                let across = across * across.dot(middle - at).signum();
+                if (middle - at).dot(across) > 2.0 {
+                    met += 1;
+                    let inside = |off: f64| shows(at + across * off);
+                    let seen = inside(0.1) && !inside(-0.1);
+                    worst.must(seen);
+                    if seen {
+                        worst.apart(edge(0.1, -0.1, inside), 0.0);
+                    }
                 }
             }
         }
     }
+    worst.must(met > 300);
     worst.0
 }
 

@@ -32,7 +32,9 @@ Written by `TERRELL_UPDATE=1 cargo test --release --test tests -- laws`; do not 
 Each law is measured over a sweep of speeds, directions and places, off every axis, against its closed form worked out in
 the test. The error is the largest of the sweep: a part of the value for powers and frequencies, radians for angles, metres
 for places, unless the law says otherwise; it is rounded up to 1, 2 or 5 times a power of ten (below 1e-9 to a power of
-ten). V is the number of the requirement that the law answers. The name of a law is that of its test.
+ten). The name of a law is that of its test. V is the number of the requirement that it answers: 1 aberration, 2 Doppler
+effect, 3 radiance and colour, 4 the outline of a sphere, 5 Terrell's rotation, 6 rods and apparent speed, 7 places seen,
+8 lines, planes and dice, 9 worldlines, 10 mirrors, 11 media, 12 lamps, 13 shadows, 14 Wigner's rotation, 15 what changes nothing.
 
 β: speed in c; γ: Lorentz factor; D: frequency seen over frequency sent; θ: from the motion to the source, primed as the
 moving observer sees it; n: the way of the light, or an index; k: its wave vector; τ: proper time. c = 1.

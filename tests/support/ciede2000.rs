@@ -1,6 +1,6 @@
 //! The colour difference CIEDE2000, written from its definition and apart from the program's own colours.
 //!
-//! Sharma, Wu and Dalal, Color Research and Application 30, 21 (2005), whose numbered steps these are; k_L = k_C = k_H = 1.
+//! Sharma, Wu and Dalal, Color Research and Application 30, 21 (2005), all three weights 1.
 
 use glam::DVec3;
 
