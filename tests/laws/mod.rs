@@ -13,7 +13,7 @@ mod shape;
 mod symmetry;
 mod table;
 
-use crate::support::angle;
+use crate::support::{angle, edge};
 use glam::{DQuat, DVec3};
 use std::sync::LazyLock;
 use terrell::spacetime::Velocity;
@@ -125,6 +125,12 @@ impl Worst {
 
     fn directions(&mut self, got: DVec3, expected: DVec3) {
         self.error(angle(got, expected));
+    }
+
+    /// How far from 0 a property ends that holds at `reach` and not at `-reach`.
+    fn edge(&mut self, reach: f64, holds: impl Fn(f64) -> bool) {
+        let ends = holds(reach) && !holds(-reach);
+        self.error(if ends { edge(reach, -reach, holds).abs() } else { f64::INFINITY });
     }
 
     /// What must hold at all; otherwise no error is large enough.
