@@ -42,7 +42,7 @@ fn water(index: Index, b: f64) -> Body {
 }
 
 /// The pace in the lab of the light that comes out of the water's end at the event of its origin, for each wavelength.
-fn paces(index: Index, b: f64) -> [f64; 64] {
+pub(crate) fn paces(index: Index, b: f64) -> [f64; 64] {
     let (water, depth) = (water(index, b), 7.0);
     let ray = light_from(DVec3::ZERO, Event::new(3.0, v(3.0, 0.0, 0.0)));
     let into: Poincare<Rest> = water.placement.rest_from_lab();

@@ -88,11 +88,34 @@ fn half_space(index: Index, velocity: Velocity) -> Body {
     block.sized(100.0).filled(index).moving(velocity)
 }
 
-/// V11: light that goes out of a moving half space, which is light going in with everything turned back in time.
+/// How light that meets a moving half space (x > 0) at an angle goes on within it: for how long, and from where to where.
+/// It is measured as light that goes out with everything turned back in time, at one of 64 wavelengths.
+pub(crate) fn within_moving_glass(index: Index, chosen: usize, incidence: f64, b: DVec3) -> (f64, DVec3) {
+    let (sin, cos) = libm::sincos(incidence);
+    // The light moves along (cos, sin); turned back in time it leaves along (-cos, -sin) and the glass moves by -b.
+    let velocity = Velocity::from_beta(-b).unwrap();
+    let block = half_space(index, velocity);
+    let rest_from_lab: Poincare<Rest> = block.placement.rest_from_lab();
+    let out = Event::ORIGIN;
+    let ray = SightRay {
+        event: out + terrell::spacetime::FourVector::new(1.0, v(-cos, -sin, 0.0)),
+        k: terrell::spacetime::FourVector::new(1.0, v(-cos, -sin, 0.0)),
+    };
+    let depth = 1.0;
+    let turned = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
+    let half = 20.0;
+    let screen = Body::new(&built(square()), glowing(flat(1.0)))
+        .mapped(DAffine3::from_mat3(turned * half))
+        .mapped(DAffine3::from_translation(v(depth, 0.0, 0.0)))
+        .moving(velocity);
+    let part = plain(std::slice::from_ref(&block), &screen, &ray)[chosen];
+    let events = seen_on_screen(std::slice::from_ref(&block), &screen, half, &ray, part, (-40.0, 40.0));
+    let inside = rest_from_lab.undo(events[chosen]);
+    (out.t - inside.t, inside.x - out.x)
+}
+
 #[test]
 fn light_in_moving_glass_has_the_direction_and_the_speed_of_the_table() {
-    let incidence = 30.0_f64.to_radians();
-    let (sin, cos) = libm::sincos(incidence);
     let table = [
         (v(0.0, 0.0, 0.0), 19.4712, 0.666_667),
         (v(0.1, 0.0, 0.0), 18.4686, 0.715_857),
@@ -103,27 +126,8 @@ fn light_in_moving_glass_has_the_direction_and_the_speed_of_the_table() {
         (v(0.0, 0.9, 0.0), 66.2193, 0.888_858),
     ];
     for (b, angle, pace) in table {
-        // In the table light moves along (cos, sin); turned back in time it leaves along (-cos, -sin) and the glass moves by -b.
-        let velocity = Velocity::from_beta(-b).unwrap();
-        let block = half_space(GLASS, velocity);
-        let rest_from_lab: Poincare<Rest> = block.placement.rest_from_lab();
-        let out = Event::ORIGIN;
-        let ray = SightRay {
-            event: out + terrell::spacetime::FourVector::new(1.0, v(-cos, -sin, 0.0)),
-            k: terrell::spacetime::FourVector::new(1.0, v(-cos, -sin, 0.0)),
-        };
-        let depth = 1.0;
-        let turned = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
-        let half = 20.0;
-        let screen = Body::new(&built(square()), glowing(flat(1.0)))
-            .mapped(DAffine3::from_mat3(turned * half))
-            .mapped(DAffine3::from_translation(v(depth, 0.0, 0.0)))
-            .moving(velocity);
-        let part = plain(std::slice::from_ref(&block), &screen, &ray)[0];
-        let events = seen_on_screen(std::slice::from_ref(&block), &screen, half, &ray, part, (-40.0, 40.0));
-        let inside = rest_from_lab.undo(events[0]);
-        let (t, way) = (out.t - inside.t, out.x - inside.x);
-        near(libm::atan2(-way.y, -way.x).to_degrees(), angle, 2e-4);
+        let (t, way) = within_moving_glass(GLASS, 0, 30.0_f64.to_radians(), b);
+        near(libm::atan2(way.y, way.x).to_degrees(), angle, 2e-4);
         near(way.length() / t, pace, 2e-6);
         near(way.z, 0.0, 1e-5);
     }
@@ -135,10 +139,10 @@ fn plate(index: Index, thickness: f64) -> Body {
     plate.filled(index)
 }
 
-#[test]
-fn plate_in_any_motion_lets_light_leave_parallel_to_how_it_came() {
+/// The largest angle by which a plate in motion turns light.
+pub(crate) fn turned_by_moving_plates() -> f64 {
     let mut dice = Dice(7);
-    let mut met = 0;
+    let (mut met, mut worst) = (0, 0.0_f64);
     for _ in 0..30 {
         let fast = 0.8 * dice.part();
         let velocity = dice.velocity(fast);
@@ -158,15 +162,22 @@ fn plate_in_any_motion_lets_light_leave_parallel_to_how_it_came() {
         }
         met += 1;
         let through = seen_on_screen(&[plate], &screen, 1e3, &ray, part, (-2e7, 2e7));
-        // Aside by some decimetres and no more: 1 m at 1e7 m.
-        assert!((through[0].x - bare[0].x).length() < 2.0, "{} {}", through[0].x, bare[0].x);
+        worst = worst.max((through[0].x - bare[0].x).length() / far);
     }
     assert!(met > 15, "{met}");
+    worst
 }
 
-/// Extra delay `(n_g - 1) L`, at each wavelength its own.
+/// Aside by some decimetres and no more: 2 m at 1e7 m.
 #[test]
-fn light_is_late_by_the_group_index() {
+fn plate_in_any_motion_lets_light_leave_parallel_to_how_it_came() {
+    let worst = turned_by_moving_plates();
+    assert!(worst < 2e-7, "{worst:e}");
+}
+
+/// By how much the light's delay in a plate at rest misses `(n_g - 1) L`, at the worst of 64 wavelengths.
+pub(crate) fn missed_delay() -> f64 {
+    let mut worst = 0.0_f64;
     let (index, thickness) = (Index::SF11, 0.4);
     let ray = light_from(v(10.0, 0.0, 0.0), Event::ORIGIN);
     let away = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
@@ -185,8 +196,16 @@ fn light_is_late_by_the_group_index() {
         // The mean over the orders, each later by twice the plate and fainter by r².
         let late =
             (index.group(*nm) - 1.0) * thickness + 2.0 * index.group(*nm) * thickness * r * r / (1.0 - r * r);
-        near(-events[i].t, 3.0 + late, 1e-5);
+        worst = worst.max((-events[i].t - 3.0 - late).abs());
     }
+    worst
+}
+
+/// Extra delay `(n_g - 1) L`, at each wavelength its own.
+#[test]
+fn light_is_late_by_the_group_index() {
+    let worst = missed_delay();
+    assert!(worst < 1e-5, "{worst:e}");
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn still_and_blinking() -> [Course; 2] {
 }
 
 /// All that there is, before the origin's -z.
-fn stage(dice: &mut Dice, fast: f64) -> Stage {
+pub(crate) fn stage(dice: &mut Dice, fast: f64) -> Stage {
     let mut moves = |limit: f64| {
         let b = dice.between(0.2 * limit, limit);
         dice.velocity(b)
@@ -170,7 +170,7 @@ fn skies(dice: &mut Dice, fast: f64) -> Vec<Heaven> {
 }
 
 /// At rest, fast, and a rocket.
-fn eyes(dice: &mut Dice) -> Vec<(Eye, f64)> {
+pub(crate) fn eyes(dice: &mut Dice) -> Vec<(Eye, f64)> {
     let rest_from_lab = Poincare::to_moving(Velocity::REST, Event::ORIGIN);
     let aim = Aim::At { rest_from_lab, place: v(0.0, 0.0, -8.0) };
     let still = Eye { rotation: dice.turn(), aim, ..Eye::at(0.0, DVec3::ZERO).wide(60.0) };

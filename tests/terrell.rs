@@ -9,7 +9,7 @@ use terrell::scene::Scene;
 use terrell::spacetime::{Event, SightRay};
 
 /// The axis and the half angle of the cone that fits unit vectors best: the plane they lie in.
-fn fitted_cone(directions: &[DVec3]) -> (DVec3, f64, f64) {
+pub(crate) fn fitted_cone(directions: &[DVec3]) -> (DVec3, f64, f64) {
     let mean = directions.iter().sum::<DVec3>() / directions.len() as f64;
     // The plane's normal: what all differences are square to.
     let mut spread = DMat3::ZERO;
@@ -31,7 +31,7 @@ fn fitted_cone(directions: &[DVec3]) -> (DVec3, f64, f64) {
 }
 
 /// The outline of what is seen around the direction `inside`, by halving between hit and miss.
-fn outline(scene: &Scene, eye: Event, inside: DVec3, points: u32) -> Vec<DVec3> {
+pub(crate) fn outline(scene: &Scene, eye: Event, inside: DVec3, points: u32) -> Vec<DVec3> {
     let inside = inside / inside.length();
     let side = inside.any_orthonormal_vector();
     let direction = |around: f64, off: f64| {

@@ -21,6 +21,7 @@ mod import;
 mod index;
 mod khronos;
 mod lamp;
+mod laws;
 mod light_equivalence;
 mod lines;
 mod lines_in_glass;

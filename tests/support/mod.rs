@@ -1,6 +1,7 @@
 //! What the laws are tried on: small meshes, a stage to put them on, an eye to look with, and dice.
 
 pub(crate) mod boosted;
+mod ciede2000;
 mod heaven;
 mod looking;
 mod meshes;
@@ -8,6 +9,7 @@ mod numbers;
 mod stage;
 mod surfaces;
 
+pub(crate) use ciede2000::{ciede2000, lab};
 pub(crate) use heaven::Heaven;
 pub(crate) use looking::{
     along, first, frequency, is_bright, light_at_rest, light_from, light_to, look, picture, pixel_centre,
