@@ -42,19 +42,17 @@ impl RestFrame {
         self.in_tree..self.placed.len() as u32
     }
 
-    /// A ray here, if it comes from here without the way through the lab.
+    /// Where a ray starts, here: without the way through the lab if it comes from a body of this frame.
     #[inline]
-    fn enters(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> SightRay<Rest> {
+    fn start(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Event<Rest> {
         match from {
-            Some(from) if std::ptr::eq(from.rest, self) => {
-                SightRay { event: from.at, k: self.rest_from_lab.light(ray.k) }
-            }
-            _ => ray.to(&self.rest_from_lab),
+            Some(from) if std::ptr::eq(from.rest, self) => from.at,
+            _ => self.rest_from_lab * ray.event,
         }
     }
 
     fn nearest(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> Option<(u32, Met)> {
-        let ray = self.enters(ray, from);
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut nearest = None;
         let limit = self.tree.walk(&line, s_max, |number, limit| {
@@ -74,7 +72,7 @@ impl RestFrame {
     }
 
     fn any(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> bool {
-        let ray = self.enters(ray, from);
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let met = |number: u32, limit| {
             if self.placed[number as usize].any(&ray, limit) { -1.0 } else { limit }
@@ -90,7 +88,7 @@ impl RestFrame {
         s_max: f64,
         enough: &mut dyn FnMut(Hit<'w>) -> bool,
     ) -> bool {
-        let ray = self.enters(ray, from);
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut stops = |number: u32| {
             let placed = &self.placed[number as usize];
@@ -116,7 +114,6 @@ impl World {
     }
 
     /// The same for a ray that leaves a body.
-    #[inline]
     pub fn nearest_from(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Option<Hit<'_>> {
         let mut nearest: Option<Hit<'_>> = None;
         for rest in &self.frames {
