@@ -8,6 +8,7 @@ mod clockwork;
 mod course;
 mod delay;
 mod doppler;
+mod edges;
 mod effects;
 mod equivalence;
 mod fill;

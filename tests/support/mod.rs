@@ -1,6 +1,7 @@
 //! What the laws are tried on: small meshes, a stage to put them on, an eye to look with, and dice.
 
 pub(crate) mod boosted;
+pub(crate) mod exact;
 mod heaven;
 mod looking;
 mod meshes;
