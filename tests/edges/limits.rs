@@ -7,7 +7,7 @@ fn checked(body: &str, observer: &str, more: &str) -> (String, i32) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.yaml");
     let text = format!(
-        "light_speed: 1 m/s\nassets: {{ ball: {{ sphere: {{ radius: 0.5 m }} }} }}\nbodies:\n  - {{ asset: ball, material: {{ glow: {{ luminance: 100 cd/m2 }} }}, {body} }}\n\
+        "light_speed: 1 m/s\nassets: {{ ball: {{ sphere: {{ radius: 0.5 m }} }} }}\nbodies:\n  - {{ asset: ball, material: {{ emission: {{ luminance: 100 cd/m2 }} }}, {body} }}\n\
          observer: {{ {observer} }}\nexposures: {{ at: 0 s }}\noutput: out\n{more}"
     );
     std::fs::write(&path, text).unwrap();
@@ -63,7 +63,7 @@ fn light_of_other_rest_frames_on_what_is_too_fast_is_warned_of() {
 #[test]
 fn what_is_faster_than_can_be_followed_is_refused_with_its_number() {
     let still = "at: 0 0 -10 m";
-    let rocket = "worldline: { rocket: { acceleration: 1 0 0 m/s2 } }";
+    let rocket = "rocket: { acceleration: 1 0 0 m/s2 }";
     for (body, observer, more, part) in [
         ("velocity: { gamma: 1.1e8, along: 1 0 0 }", "at: 0 0 5 m", "", "gamma: 1e8"),
         ("velocity: 0.99999999999 0 0 c", "at: 0 0 5 m", "", "does not tell how fast"),

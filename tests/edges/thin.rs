@@ -91,7 +91,7 @@ fn wall_of_slivers_of_aspect_1e6_loses_no_ray() {
 }
 
 /// A cube on a cube that moves otherwise, face on face, before a bright sky: no light passes between them, however the
-/// seam is aimed at.
+/// seam is aimed at; but for rays that stay within 64 ε γ of the coordinates of its plane.
 #[test]
 fn no_light_leaks_between_bodies_that_touch_at_different_speeds() {
     let mut dice = Dice(13);
@@ -107,17 +107,16 @@ fn no_light_leaks_between_bodies_that_touch_at_different_speeds() {
             let upper = put(upper, v(0.0, 1.0, 0.0)).moving(Velocity::from_gamma(gamma, turn * DVec3::X));
             let sky = crate::support::Heaven::uniform(flat(1.0));
             let scene = Stage::of([lower, upper]).under(sky).scene();
-            let mut leaks = 0;
+            // Between the roundings of both faces a ray in the seam's own plane may pass, where that is no axis' plane.
+            let gap = if turned { 64.0 * f64::EPSILON * gamma * 6.0 } else { 0.0 };
             for _ in 0..4000 {
                 let off = [0.0, 1e-15, -1e-15, 1e-13, -1e-13, 1e-9, -1e-9][dice.below(7)];
                 let place = turn * v(dice.between(-5.0, 5.0), off, 1.0);
                 let height = [0.0, 1e-9, 1e-3, 1.0][dice.below(4)] * dice.between(-1.0, 1.0);
                 let eye: Event = Event::new(0.0, turn * v(dice.between(-5.0, 5.0), height, 4.0));
-                leaks += u32::from(is_bright(&scene, &light_from(place, eye)));
+                let leaks = is_bright(&scene, &light_from(place, eye));
+                assert!(!leaks || turned && off.abs() <= gap, "γ = {gamma}, {off}, {height}");
             }
-            // A ray in the seam's own plane may pass between roundings: 64 ε of the coordinates, no wider.
-            let allowed = if turned { 40 } else { 0 };
-            assert!(leaks <= allowed, "γ = {gamma}, turned {turned}: {leaks} leaks");
         }
     }
 }
