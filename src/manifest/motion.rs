@@ -10,7 +10,7 @@ use super::units::{self, Dimension};
 use crate::spacetime::Velocity;
 use glam::{DQuat, DVec3};
 
-/// The greatest Lorentz factor. Up to it the Doppler factor is right to a part 1e-7 (a direction's last digit decides), and
+/// The greatest Lorentz factor. Up to it the Doppler factor is right to a part 1e-6 (a direction's last digit decides), and
 /// a body one metre away appears where it is seen within 1e-7 of that metre.
 pub(crate) const GREATEST_GAMMA: f64 = 1e8;
 /// The greatest that a speed in units of c can tell: its last digit is a part 1e-6 of γ there.

@@ -26,6 +26,9 @@ fn village(by: (f64, DVec3)) -> terrell::scene::Scene {
     Stage::of(bodies).lit_by(lamps).seen_by(&Eye::at(t, x).moving(beta(0.1, 0.0, 0.3)))
 }
 
+/// 1/64 m: exact also beside 1e9.
+const DISTANCE: f64 = 1.0 / 64.0;
+
 /// All places are written exactly at both ends, so that what differs is the arithmetic.
 #[test]
 fn picture_is_the_same_a_thousand_million_metres_and_metres_of_time_away() {
@@ -78,12 +81,12 @@ fn ball_of_a_millimetre_is_round_a_thousand_million_metres_away() {
     for t in [0.0, 1e9] {
         let body = Body::of(ball(1e-3, DVec3::ZERO), glowing(flat(1.0))).at(0.0, centre);
         let scene = Stage::of([body]).scene();
-        let eye: Event = Event::new(t, centre + v(0.0, 0.0, 0.015625));
+        let eye: Event = Event::new(t, centre + v(0.0, 0.0, DISTANCE));
         let meets = |angle: f64| {
             let toward = v(libm::sin(angle), 0.0, -libm::cos(angle));
             scene.world.nearest(&light_from(eye.x + toward * 1e9, eye)).is_some()
         };
-        near(edge(0.0, 0.5, meets), libm::asin(1e-3 / 0.015625), 1e-8);
+        near(edge(0.0, 0.5, meets), libm::asin(1e-3 / DISTANCE), 1e-8);
     }
     // From a million metres it is still met along its axis.
     let body = Body::of(ball(1e-3, DVec3::ZERO), glowing(flat(1.0)));

@@ -1,5 +1,6 @@
 //! A search for the worst: a camera and a ball with motions and distances over many decades, changed at random wherever
 //! that makes the error larger in parts of what is allowed. The worst found are kept.
+#![allow(clippy::unreadable_literal, reason = "cases as the search writes them")]
 
 use super::numbers::any_velocity;
 use crate::support::exact::ball_seen;
@@ -23,7 +24,7 @@ struct Case {
 /// What is guaranteed of a ray that meets a ball not too slantingly, in parts of what is allowed: above 1 is a breach.
 #[derive(Debug, Clone, Copy, Default)]
 struct Breach {
-    /// Of the frequency: 4 ε (γ of the camera + γ of the body) + 2e-12 of it.
+    /// Of the frequency: 32 ε (γ of the camera + γ of the body) + 2e-12 of it.
     doppler: f64,
     /// Of the place, in the rest frame: 4 ε (γ (d + c / 4) + r), over the cosine: d the distance from the camera to
     /// the body's origin, in place and time, c the larger of their coordinates, r the radius. And 64 ε of the way of the
@@ -118,14 +119,24 @@ impl Case {
             return None;
         }
         Some(Breach {
-            doppler: (spot.k.t / omega - 1.0).abs() / (unit * (moves.gamma() + eye_moves.gamma()) + 2e-12),
+            doppler: (spot.k.t / omega - 1.0).abs()
+                / (8.0 * unit * (moves.gamma() + eye_moves.gamma()) + 2e-12),
             place: (spot.event.x - exact).length() * cosine / allowed,
         })
     }
 }
 
 /// The worst that were found, with other bounds and in other versions too.
-const KEPT: [Case; 3] = [
+const KEPT: [Case; 4] = [
+    // A camera just not fast enough for light's own boost: its last digits, times the body's γ.
+    Case {
+        eye: (-1.8348092701189662, [3.955888973673428, 2.001789872741157, 5.590107241116351]),
+        eye_moves: (2.0245497543367708, [-0.17330448364986992, -0.043259524286920405, 0.48313689554678824]),
+        ball: (-2.6521808147754014, [5.116257015646179, 2.5345163448880346, 5.425063709084925]),
+        ball_moves: (10.182375388531522, [-0.8102048613030436, 0.04847096715633596, -0.584947444657162]),
+        radius: 0.02552835946927898,
+        aim: [-0.39981480945426556, -0.40955543212371065, 0.5452645202128189],
+    },
     // Light that was emitted 1e19 m away by what is now 1e7 m away.
     Case {
         eye: (-352.38056294831347, [966.2042051544319, -122.95079561407972, -366.93328085753194]),
@@ -161,7 +172,7 @@ fn worst_balls_that_were_found_are_seen_as_guaranteed() {
         let breach = case.breach();
         assert!(breach.is_none_or(|breach| breach.worst() < 1.0), "{case:?}: {breach:?}");
     }
-    assert!(KEPT.iter().filter_map(Case::breach).count() >= 2);
+    assert!(KEPT.iter().filter_map(Case::breach).count() >= 3);
 }
 
 /// Climbs from random places for so many steps each; the worst of all.

@@ -118,10 +118,6 @@ pub(crate) struct Long4 {
 }
 
 impl Long4 {
-    pub(crate) fn of(t: f64, x: DVec3) -> Self {
-        Self { t: Long::of(t), x: Long3::of(x) }
-    }
-
     /// Light along a vector of any length.
     pub(crate) fn light(x: DVec3) -> Self {
         let x = Long3::of(x);
