@@ -3,7 +3,7 @@
 use super::sound_picture;
 use crate::support::{
     Body, Eye, Stage, ball, black, built, cube, cuboid, diffuse, flat, glass, glowing, icosphere, mirror,
-    square, v,
+    pixel_centre, square, v,
 };
 use glam::{DAffine3, DVec3};
 use terrell::spacetime::Velocity;
@@ -40,6 +40,13 @@ fn closed_body_has_no_leak_from_inside() {
     }
 }
 
+/// Pictures from the origin in three directions.
+fn look_around(stage: &Stage) {
+    for toward in [DVec3::NEG_Z, DVec3::Z, DVec3::X] {
+        sound_picture(&stage.seen_by(&Eye::at(0.0, DVec3::ZERO).toward(toward)));
+    }
+}
+
 /// Exactly on a face, an edge, a corner, a pole: either side, but no number is lost.
 #[test]
 fn camera_on_a_surface_sees_only_numbers() {
@@ -59,9 +66,7 @@ fn camera_on_a_surface_sees_only_numbers() {
                         body.clone().filled(Index::Constant(1.5)).mapped(DAffine3::from_translation(-place));
                     let lamp = crate::support::Lantern::at(0.0, v(3.0, 4.0, 5.0), flat(1.0));
                     let stage = Stage::of([body.moving(moves)]).lit_by([lamp]);
-                    [DVec3::NEG_Z, DVec3::Z, DVec3::X].into_iter().for_each(|toward| {
-                        sound_picture(&stage.seen_by(&Eye::at(0.0, DVec3::ZERO).toward(toward)));
-                    });
+                    look_around(&stage);
                 }
             }
         }

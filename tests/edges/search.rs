@@ -27,8 +27,8 @@ struct Breach {
     /// Of the frequency: 32 ε (γ of the camera + γ of the body) + 2e-12 of it.
     doppler: f64,
     /// Of the place, in the rest frame: 4 ε (γ (d + c / 4) + r), over the cosine: d the distance from the camera to
-    /// the body's origin, in place and time, c the larger of their coordinates, r the radius. And 64 ε of the way of the
-    /// light in the lab, an angle of 1.4e-14 that no picture shows.
+    /// the body's origin, in place and time, c the larger of their coordinates, r the radius. And 256 ε of the way of the
+    /// light in the lab, an angle of 5.7e-14 that no picture shows.
     place: f64,
 }
 
@@ -109,7 +109,7 @@ impl Case {
         let known = size(eye.t, eye.x).max(size(centre.t, centre.x));
         let ray = tetrad.sight_ray(toward);
         let hit = scene.world.nearest(&ray)?;
-        let allowed = unit * (moves.gamma() * (apart + 0.25 * known) + self.radius + 16.0 * hit.s * ray.k.t);
+        let allowed = unit * (moves.gamma() * (apart + 0.25 * known) + self.radius + 64.0 * hit.s * ray.k.t);
         if allowed > 0.1 * self.radius {
             return None;
         }
