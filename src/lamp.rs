@@ -1,9 +1,14 @@
 //! Lamps, spots and suns, each at rest in a frame of its own.
 
 use crate::course::Course;
-use crate::spacetime::{Event, FourVector, Lab, Poincare, Rest, SightRay};
+use crate::spacetime::{FourVector, Lab, Poincare, Rest, SightRay};
 use crate::spectrum::Source;
+use crate::world::Departure;
 use glam::DVec3;
+
+/// A lamp shines no brighter than from this distance, m: one over its square is still a number, whatever it is
+/// multiplied by.
+const NEAREST: f64 = 1e-15;
 
 /// How a lamp shines in its own rest frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,13 +66,13 @@ pub struct Connection {
 }
 
 impl Lamp {
-    /// The light that arrives from the lamp at an event of the lab; none outside a spot's cone or at the lamp itself.
+    /// The light that arrives from the lamp at a surface; none outside a spot's cone or at the lamp itself.
     ///
     /// ~~~text
     /// d = p - x        k = (|d|, -d)        so that the events E - s k go from the receiver (0) to the lamp (1)
     /// ~~~
-    pub fn connect(&self, receiver: Event) -> Option<Connection> {
-        let event = self.rest_from_lab * receiver;
+    pub fn connect(&self, receiver: &Departure<'_>) -> Option<Connection> {
+        let event = receiver.within(&self.rest_from_lab);
         let (toward, s_lamp) = match self.beam {
             Beam::Point { place } | Beam::Spot { place, .. } => (place - event.x, 1.0),
             Beam::Sun { axis } => (-axis, f64::INFINITY),
@@ -86,9 +91,16 @@ impl Lamp {
         if distance == 0.0 || cone == 0.0 {
             return None;
         }
-        let k = self.rest_from_lab.boost().inverse() * FourVector::new(distance, -toward);
-        let dilution = if s_lamp.is_finite() { cone / (distance * distance) } else { cone };
+        let k = self.rest_from_lab.boost().inverse().light(FourVector::new(distance, -toward));
+        let apart = distance.max(NEAREST);
+        let dilution = if s_lamp.is_finite() { cone / (apart * apart) } else { cone };
         let emitted = event.t - if s_lamp.is_finite() { distance } else { -toward.dot(event.x) };
-        Some(Connection { ray: SightRay { event: receiver, k }, s_lamp, emitted, omega: distance, dilution })
+        Some(Connection {
+            ray: SightRay { event: receiver.event, k },
+            s_lamp,
+            emitted,
+            omega: distance,
+            dilution,
+        })
     }
 }

@@ -1,7 +1,8 @@
 //! The observer's camera: where it is, where it looks, and the sight ray of each place in the picture.
 
 use crate::spacetime::{
-    Boost, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Worldline, looking_along,
+    Boost, Camera, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Velocity, Worldline,
+    looking_along,
 };
 use crate::trace::Cone;
 use glam::{DQuat, DVec2, DVec3};
@@ -50,8 +51,8 @@ pub struct Unaberrated {
 pub struct View {
     /// The observer with the camera's axes: x right, y up, z backward.
     pub tetrad: Tetrad,
-    // The observer's true four-velocity, where the tetrad's is not.
-    seer: Option<FourVector>,
+    // Into the observer's true rest frame, where the tetrad's is not.
+    seer: Option<Boost<Camera, Lab>>,
     // Half the width of the picture at distance 1, and the picture's size in pixels.
     half_width: f64,
     size: DVec2,
@@ -73,13 +74,13 @@ impl Observer {
             Aim::At { rest_from_lab, place } => {
                 let toward = place - (rest_from_lab * axes.event).x;
                 let light = FourVector::<Rest>::new(toward.length(), -toward);
-                let seen = axes.direction_of(rest_from_lab.boost().inverse() * light);
+                let seen = axes.direction_of(rest_from_lab.boost().inverse().light(light));
                 if seen.is_finite() { seen } else { DVec3::NEG_Z }
             }
         };
         View {
             tetrad: axes.turned(looking_along(forward, self.up)),
-            seer: self.unaberrated.map(|_| carried.velocity()),
+            seer: self.unaberrated.map(|_| Boost::to_moving(Velocity::from_proper(carried.velocity().x))),
             half_width: libm::tan(0.5 * self.field_of_view),
             size: DVec2::new(f64::from(width), f64::from(height)),
         }
@@ -111,7 +112,7 @@ impl View {
         match self.seer {
             // With aberration switched off the angle is seen by those beside whom the light has another frequency.
             Some(seer) => {
-                let scale = 1.0 / ray.k.dot(seer);
+                let scale = 1.0 / seer.light(ray.k).t;
                 (SightRay { k: ray.k * scale, ..ray }, cone(half * scale))
             }
             None => (ray, cone(half)),

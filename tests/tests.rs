@@ -9,6 +9,7 @@ mod course;
 mod delay;
 mod difference;
 mod doppler;
+mod edges;
 mod effects;
 mod equivalence;
 mod fill;

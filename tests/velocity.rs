@@ -61,5 +61,5 @@ fn frames_told_apart_by_type_add_no_bytes() {
     assert_eq!(size_of::<SightRay<Rest>>(), 64);
     assert_eq!(size_of::<Velocity>(), 24);
     assert_eq!(size_of::<Boost<Rest, Lab>>(), 32);
-    assert_eq!(size_of::<Lorentz<Rest, Lab>>(), 128);
+    assert_eq!(size_of::<Lorentz<Rest, Lab>>(), 64);
 }

@@ -30,6 +30,9 @@ pub struct Sampling {
 /// Steps by it visit 0 to 1 evenly, and in an order that has nothing to do with where samples lie.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// What is brighter (cd/m²) is as bright as this: numbers in 32 bits, sRGB's among them, go no further.
+const BRIGHTEST: f64 = 1e37;
+
 /// Rows that one task of the pool takes: small enough to share out, large enough to keep rays together.
 const ROWS_PER_TASK: usize = 4;
 
@@ -68,7 +71,8 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
             }
             lines += light.lines;
         }
-        ((wavelengths.xyz(&radiance) + lines) * share).as_vec3().to_array()
+        let xyz = ((wavelengths.xyz(&radiance) + lines) * share).min(DVec3::splat(BRIGHTEST));
+        xyz.as_vec3().to_array()
     };
     let xyz = by_pixel(sampling.width, sampling.height, expose_pixel);
     Negative { width: sampling.width, height: sampling.height, xyz }

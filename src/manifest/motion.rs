@@ -10,8 +10,13 @@ use super::units::{self, Dimension};
 use crate::spacetime::Velocity;
 use glam::{DQuat, DVec3};
 
-/// The greatest Lorentz factor: up to it a head-on frequency `γ - u·n`, in f64, keeps five digits.
-pub(crate) const GREATEST_GAMMA: f64 = 1e5;
+/// The greatest Lorentz factor. Up to it the Doppler factor is right to a part 1e-6 (a direction's last digit decides), and
+/// a body one metre away appears where it is seen within 1e-7 of that metre.
+pub(crate) const GREATEST_GAMMA: f64 = 1e8;
+/// The greatest that a speed in units of c can tell: its last digit is a part 1e-6 of γ there.
+const GREATEST_GAMMA_OF_SPEED: f64 = 1e5;
+const TOO_NEAR_FOR_SPEED: &str = "so near the speed of light a speed in c does not tell how fast it is";
+const USE_GAMMA: &str = "up to 0.99999999995 c (γ = 1e5); beyond, `gamma: 1e6` in its place";
 const TOO_NEAR: &str = "this is so near the speed of light that the arithmetic cannot follow";
 
 record! {
@@ -61,12 +66,8 @@ impl Kind for Motion {
         if !matches!(node.content, Content::Map(_)) {
             let beta = VelocityVector::read(node, reader)?;
             let velocity = Velocity::from_beta(beta).map_err(|_| too_fast(node, beta, reader))?;
-            if velocity.gamma() > GREATEST_GAMMA {
-                return Err(reader.fault(
-                    &node.place,
-                    TOO_NEAR,
-                    "a Lorentz factor of 1e5 is the most: 0.99999999995 c",
-                ));
+            if velocity.gamma() > GREATEST_GAMMA_OF_SPEED {
+                return Err(reader.fault(&node.place, TOO_NEAR_FOR_SPEED, USE_GAMMA));
             }
             return Ok(velocity);
         }
@@ -123,14 +124,14 @@ fn lorentz_factor(node: &Node, gamma: f64, reader: &mut Reader<'_>) -> Read<f64>
         let what = format!("a Lorentz factor is 1 or more; here is {gamma}");
         return Err(reader.fault(place, what, "gamma: 2 (1 is rest, 2 is 0.866 c)"));
     }
-    Err(reader.fault(place, TOO_NEAR, "gamma: 1e5 (at most)"))
+    Err(reader.fault(place, TOO_NEAR, "gamma: 1e8 (at most)"))
 }
 
 fn proper(node: &Node, u: f64, reader: &mut Reader<'_>) -> Read<f64> {
     if u.abs() <= GREATEST_GAMMA {
         return Ok(u);
     }
-    Err(reader.fault(&node.place, TOO_NEAR, "a Lorentz factor of 1e5, or a rapidity of 12.2, is the most"))
+    Err(reader.fault(&node.place, TOO_NEAR, "a Lorentz factor of 1e8, or a rapidity of 19.1, is the most"))
 }
 
 /// A speed along a known path: what comes of it is γβ, negative for the other way round.
@@ -159,12 +160,16 @@ impl Kind for Speed {
         }
         let (numbers, _) = reader.quantity(node, &Self::QUANTITY)?;
         let beta = numbers.first().copied().unwrap_or_default();
-        Velocity::from_beta(DVec3::X * beta).map(|velocity| velocity.proper().x).map_err(|_| {
+        let velocity = Velocity::from_beta(DVec3::X * beta).map_err(|_| {
             let text = node.text().unwrap_or_default();
             let what = format!("`{text}` is {} c, not below the speed of light", rounded(beta));
             let hint = format!("{}, or {{ gamma: 50 }}", reader.typed("0.99 c"));
             reader.fault(&node.place, what, hint)
-        })
+        })?;
+        if velocity.gamma() > GREATEST_GAMMA_OF_SPEED {
+            return Err(reader.fault(&node.place, TOO_NEAR_FOR_SPEED, USE_GAMMA));
+        }
+        Ok(velocity.proper().x)
     }
 }
 

@@ -2,6 +2,8 @@
 
 pub mod needs;
 
+mod limits;
+
 use crate::error::Report;
 use crate::exposure::Sampling;
 use crate::film::Reconstruction;
@@ -61,7 +63,7 @@ pub struct Plan {
 impl Plan {
     /// What a manifest asks for.
     ///
-    /// Faults: a film that cannot be written, and an observer too fast to be followed.
+    /// Faults: a film that cannot be written, and what is beyond the limits of the arithmetic.
     pub fn of(manifest: &Manifest, scene: &Scene, path: &Path, report: &mut Report) -> Self {
         let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
         let picture = &manifest.picture;
@@ -69,7 +71,7 @@ impl Plan {
         let file = film.and_then(|film| film.file.clone()).unwrap_or_else(|| format!("{stem}.mp4"));
         let exposures = exposures(&manifest.exposures, scene);
         let film_rate = film.map(|film| film.rate).filter(|_| film_fits(manifest, exposures.len(), report));
-        check_speeds(manifest, scene, &exposures, report);
+        limits::check(manifest, scene, &exposures, report);
         let version = concat!("terrell ", env!("CARGO_PKG_VERSION"));
         Self {
             exposures,
@@ -119,20 +121,6 @@ fn film_fits(manifest: &Manifest, exposures: usize, report: &mut Report) -> bool
         );
     }
     fits
-}
-
-/// Refuses an observer who, at the first or the last exposure, is beyond what numbers can follow.
-fn check_speeds(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], report: &mut Report) {
-    let ends = exposures.first().into_iter().chain(exposures.last());
-    for exposure in ends {
-        let tetrad = scene.observer.worldline.at(exposure.tau);
-        let gamma = tetrad.velocity().t;
-        if !(gamma <= manifest::GREATEST_GAMMA * (1.0 + 1e-9) && tetrad.event.t.is_finite()) {
-            let what = format!("at exposure {} the observer's Lorentz factor is {gamma:.3e}", exposure.index);
-            let hint = "up to 1e5 can be followed: take a shorter time or a smaller acceleration";
-            return report.fault(manifest.exposures.place.clone(), what, hint);
-        }
-    }
 }
 
 fn exposures(written: &manifest::Exposures, scene: &Scene) -> Vec<Exposure> {

@@ -30,7 +30,7 @@ impl<F: Frame> SightRay<F> {
 
     /// The same light in another frame.
     pub fn to<To: Frame>(&self, to_from: &Poincare<To, F>) -> SightRay<To> {
-        SightRay { event: *to_from * self.event, k: *to_from * self.k }
+        SightRay { event: *to_from * self.event, k: to_from.light(self.k) }
     }
 }
 

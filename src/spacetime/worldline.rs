@@ -178,12 +178,12 @@ impl Tetrad {
     ///
     /// Aberration is nowhere a formula: it is that sum.
     pub fn sight_ray(&self, n: DVec3) -> SightRay {
-        SightRay { event: self.event, k: self.lab_from_camera * FourVector::new(1.0, -n) }
+        SightRay { event: self.event, k: self.lab_from_camera.light(FourVector::new(1.0, -n)) }
     }
 
     /// The direction, in the observer's own axes, from which light with the wave vector `k` is seen to come.
     pub fn direction_of(&self, k: FourVector) -> DVec3 {
-        let seen = self.lab_from_camera.inverse() * k;
+        let seen = self.lab_from_camera.inverse().light(k);
         -seen.x / seen.x.length()
     }
 }

@@ -46,15 +46,15 @@ impl Lit<'_> {
             self.add_fill(ambient, &fill, seen, &mut arriving, gathered);
         }
         for lamp in self.lamps {
-            let Some(connection) = lamp.connect(seen.departure) else { continue };
-            let k = seen.hit.rest.rest_from_lab * connection.ray.k;
+            let Some(connection) = lamp.connect(&seen.departure) else { continue };
+            let k = seen.hit.rest.rest_from_lab.light(connection.ray.k);
             // The cosine is the receiver's, in its own rest frame.
             let cosine = -k.x.dot(lobes.normal) / k.t;
             let above = -k.x.dot(seen.spot.facet_normal);
             if cosine <= 0.0 || above <= 0.0 {
                 continue;
             }
-            let Some(passage) = self.passage(&connection) else { continue };
+            let Some(passage) = self.passage(&connection, &seen.departure) else { continue };
             let response = lobes.response(|| (-k.x / k.t, seen.to_eye()));
             let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
             self.add_lamp(&light, &response, seen, &mut arriving, gathered);

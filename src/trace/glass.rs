@@ -132,7 +132,8 @@ impl Lit<'_> {
         let path = seen.path.filtered(&seen.nm.map(part), &step);
         if !path.is_faint(self.faintest) {
             let path = Path { depth: path.depth - 1, way: seen.way, ..path };
-            self.gather(&seen.straight_on(0.0), seen.lanes, &path, gathered);
+            let beyond = seen.spot.beyond(seen.hit.rest, 0.0);
+            self.gather(&seen.straight_on(&beyond), seen.lanes, &path, gathered);
         }
     }
 
@@ -149,11 +150,11 @@ impl Lit<'_> {
         if let Some(hit) = contact {
             return self.meet_in_contact(&hit, seen, gathered);
         }
-        let event = seen.spot.beyond(seen.hit.rest, further);
+        let from = seen.spot.beyond(seen.hit.rest, further);
         let (near, far) = (self.medium_number(&seen.leg.inside), self.medium_number(&inside));
         if near == far {
             // Within something else that decides: nothing happens here.
-            let leg = Leg { inside, ..seen.straight_on(further) };
+            let leg = Leg { inside, ..seen.straight_on(&from) };
             let path = Path { depth: seen.path.depth - 1, way: seen.way, ..*seen.path };
             return self.gather(&leg, seen.lanes, &path, gathered);
         }
@@ -189,7 +190,12 @@ impl Lit<'_> {
         if path.is_faint(self.faintest) {
             return;
         }
-        let onward = |light: Light4| Leg { ray: SightRay { event, k: light.step }, wave: light.wave, inside };
+        let onward = |light: Light4| Leg {
+            ray: SightRay { event: from.event, k: light.step },
+            from: Some(&from),
+            wave: light.wave,
+            inside,
+        };
         if even || N == 1 {
             if let Some(light) = lanes.all[0].refracted {
                 self.gather(&onward(light), seen.lanes, &path, gathered);
@@ -214,7 +220,7 @@ impl Lit<'_> {
     ) {
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };
         let spot = hit.spot(&seen.leg.ray);
-        let omega = (hit.rest.rest_from_lab * seen.leg.wave).t;
+        let omega = hit.rest.rest_from_lab.light(seen.leg.wave).t;
         let shift = self.effects.shift(omega);
         let nm = scaled(seen.lanes, 1.0 / shift);
         // Its light comes and goes on this side of the face, within the medium.
@@ -235,7 +241,7 @@ impl Lit<'_> {
         let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
         let mut crossed: Vec<(u32, bool)> = Vec::new();
         let mut contact = None;
-        self.world.until(&ray, 2.0 * reach, |hit| {
+        self.world.until(&ray, None, 2.0 * reach, |hit| {
             let Some(surface) = self.surfaces.get(hit.surface()) else { return false };
             let spot = hit.spot(&ray);
             let own = (hit.surface() == seen.hit.surface()).then_some(medium);
@@ -264,7 +270,7 @@ impl Lit<'_> {
         let leaving = if seen.leg.inside.is_empty() {
             seen.spot.k
         } else {
-            seen.hit.rest.rest_from_lab * seen.leg.wave
+            seen.hit.rest.rest_from_lab.light(seen.leg.wave)
         };
         let facet_normal = seen.spot.facet_normal;
         let normal = if leaving.x.dot(normal) > 0.0 { normal } else { facet_normal };
@@ -277,8 +283,9 @@ impl Lit<'_> {
         let on = |normal: DVec3| self.at_face_of(face, normal, seen, lane);
         let at = on(face.normal);
         let through = |at: &AtFace| {
-            at.refracted
-                .is_none_or(|light| (seen.hit.rest.rest_from_lab * light.step).x.dot(face.facet_normal) > 0.0)
+            at.refracted.is_none_or(|light| {
+                seen.hit.rest.rest_from_lab.light(light.step).x.dot(face.facet_normal) > 0.0
+            })
         };
         // The interpolated normal would send the ray back out: the facet's own does not.
         if through(&at) { at } else { on(face.facet_normal) }
@@ -324,7 +331,7 @@ impl Lit<'_> {
         let Some(medium) = medium else {
             let squared = omega * omega - along.length_squared();
             let wave = FourVector::new(omega, along + normal * (sense * positive_root(squared)?));
-            let k = rest.boost().inverse() * wave;
+            let k = rest.boost().inverse().light(wave);
             return Some(Wave { at_face: wave, light: Light4 { wave: k, step: k }, index: 1.0 });
         };
         if medium.rest_from_lab.velocity() == rest.boost().velocity() {
@@ -383,16 +390,21 @@ impl Lit<'_> {
     }
 
     /// A ray that is reflected within a medium, toward the face it came from.
-    pub(super) fn reflected_inside<const N: usize>(&self, normal: DVec3, seen: &Seen<'_, N>) -> Option<Leg> {
-        let leaving = seen.hit.rest.rest_from_lab * seen.leg.wave;
+    pub(super) fn reflected_inside<'s, const N: usize>(
+        &self,
+        normal: DVec3,
+        seen: &'s Seen<'_, N>,
+    ) -> Option<Leg<'s>> {
+        let leaving = seen.hit.rest.rest_from_lab.light(seen.leg.wave);
         let medium = self.medium(&seen.leg.inside);
         let arriving =
             |normal| self.wave(medium, Going { leaving, normal, sense: -1.0 }, seen, seen.lanes[0]);
-        let toward =
-            |wave: &Wave| (seen.hit.rest.rest_from_lab * wave.light.step).x.dot(seen.spot.facet_normal) < 0.0;
+        let toward = |wave: &Wave| {
+            seen.hit.rest.rest_from_lab.light(wave.light.step).x.dot(seen.spot.facet_normal) < 0.0
+        };
         let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.spot.facet_normal))?;
-        let ray = SightRay { event: seen.departure, k: wave.light.step };
-        Some(Leg { ray, wave: wave.light.wave, inside: seen.leg.inside })
+        let ray = SightRay { event: seen.departure.event, k: wave.light.step };
+        Some(Leg { ray, from: Some(&seen.departure), wave: wave.light.wave, inside: seen.leg.inside })
     }
 }
 

@@ -53,7 +53,7 @@ pub(super) fn in_medium(medium: &Medium, direction: DVec3, omega: f64, nm: f64) 
     let (n, group) = (medium.index.at(nm), medium.index.group(nm));
     let wave = FourVector::<Rest>::new(omega, direction * (omega * n));
     let step = FourVector::<Rest>::new(omega * group, direction * omega);
-    Light4 { wave: lab_from_rest * wave, step: lab_from_rest * step }
+    Light4 { wave: lab_from_rest.light(wave), step: lab_from_rest.light(step) }
 }
 
 impl Lit<'_> {
@@ -75,12 +75,12 @@ impl Lit<'_> {
 
     /// Wavelength in a medium of light that the observer sees at one, and the frequency there.
     pub(super) fn local(&self, medium: &Medium, wave: FourVector, lane: f64) -> (f64, f64) {
-        let omega = (medium.rest_from_lab * wave).t;
+        let omega = medium.rest_from_lab.light(wave).t;
         (lane / self.effects.shift(omega), omega)
     }
 
     /// How far s widens a cone in a medium: angles are smaller there by the index.
-    pub(super) fn slowed(&self, leg: &Leg, lane: f64, s: f64) -> f64 {
+    pub(super) fn slowed(&self, leg: &Leg<'_>, lane: f64, s: f64) -> f64 {
         let Some(medium) = self.medium(&leg.inside) else { return s };
         let (nm, _) = self.local(medium, leg.wave, lane);
         s / medium.index.at(nm)
@@ -88,31 +88,31 @@ impl Lit<'_> {
 
     /// The wave vector of light that comes through a medium without end, and what of it is left: all of it, and n² times
     /// its radiance, of a medium that absorbs nothing.
-    pub(super) fn escaped(&self, leg: &Leg, lane: f64) -> (FourVector, f64) {
+    pub(super) fn escaped(&self, leg: &Leg<'_>, lane: f64) -> (FourVector, f64) {
         let Some(medium) = self.medium(&leg.inside) else { return (leg.wave, 1.0) };
-        let inside = medium.rest_from_lab * leg.wave;
+        let inside = medium.rest_from_lab.light(leg.wave);
         let null = FourVector::<Rest>::new(inside.t, inside.x.normalize_or(DVec3::Z) * inside.t);
         let index = medium.index.at(lane / self.effects.shift(inside.t));
         let left = if medium.absorption.is_some() { 0.0 } else { index * index };
-        (medium.rest_from_lab.inverse() * null, left)
+        (medium.rest_from_lab.inverse().light(null), left)
     }
 
     /// A sight ray that may begin within glass: there the camera looks out of a bubble without size, and `L/n²` is what
     /// it sees.
     pub(super) fn start_inside<const N: usize>(
         &self,
-        leg: &Leg,
+        leg: &Leg<'_>,
         lanes: &[f64; N],
         path: &Path<'_, N>,
         gathered: &mut Gathered<'_, N>,
     ) {
         let inside = self.inside_at(&leg.ray);
         let Some(medium) = self.medium(&inside) else { return self.gather(leg, lanes, path, gathered) };
-        let null = medium.rest_from_lab * leg.wave;
+        let null = medium.rest_from_lab.light(leg.wave);
         let start = |nm: f64| {
             let light = in_medium(medium, null.x / null.x.length(), null.t, nm / self.effects.shift(null.t));
             let ray = SightRay { event: leg.ray.event, k: light.step };
-            Leg { ray, wave: light.wave, inside }
+            Leg { ray, from: None, wave: light.wave, inside }
         };
         let part = |nm: f64| 1.0 / (medium.index.at(nm) * medium.index.at(nm));
         let step = Step { before: path.steps, part: &part, shift: self.effects.shift(null.t) };
@@ -133,7 +133,7 @@ impl Lit<'_> {
     /// The bodies of glass around the start of a ray: those whose nearest surface is seen from inside.
     fn inside_at(&self, ray: &SightRay) -> Inside {
         let mut nearest: Vec<(u32, f64, bool)> = Vec::new();
-        self.world.until(ray, f64::INFINITY, |hit| {
+        self.world.until(ray, None, f64::INFINITY, |hit| {
             let medium = self.surfaces.get(hit.surface()).and_then(Surface::medium);
             let Some(medium) = medium else { return false };
             let outside = hit.spot(ray).outside;
@@ -163,8 +163,8 @@ impl Lit<'_> {
     ) {
         let absorbing = self.medium(&seen.leg.inside).and_then(|m| Some((m, m.absorption.as_ref()?)));
         let Some((medium, absorption)) = absorbing else { return self.meet(surface, seen, gathered) };
-        let shift = self.effects.shift((medium.rest_from_lab * seen.leg.wave).t);
-        let way = (medium.rest_from_lab * seen.leg.ray.k).x.length() * seen.hit.s;
+        let shift = self.effects.shift(medium.rest_from_lab.light(seen.leg.wave).t);
+        let way = medium.rest_from_lab.light(seen.leg.ray.k).x.length() * seen.hit.s;
         let part = |nm: f64| absorption.after(way, nm);
         let step = Step { before: seen.path.steps, part: &part, shift };
         let parts = seen.lanes.map(|lane| part(lane / shift));

@@ -82,8 +82,9 @@ impl Lit<'_> {
                 // The interpolated normal would send the ray through the surface: the facet's own does not.
                 arriving.x = before_mirror(seen.spot.k.x, seen.spot.facet_normal);
             }
-            let k = seen.hit.rest.rest_from_lab.boost().inverse() * arriving;
-            Leg { ray: SightRay { event: seen.departure, k }, wave: k, inside: seen.leg.inside }
+            let k = seen.hit.rest.rest_from_lab.boost().inverse().light(arriving);
+            let ray = SightRay { event: seen.departure.event, k };
+            Leg { ray, from: Some(&seen.departure), wave: k, inside: seen.leg.inside }
         } else {
             let Some(leg) = self.reflected_inside(normal, seen) else { return };
             leg

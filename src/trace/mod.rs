@@ -20,7 +20,7 @@ use crate::scene::Sky;
 use crate::spacetime::{Doppler, Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
-use crate::world::{Hit, Spot, World};
+use crate::world::{Departure, Hit, Spot, World};
 use glam::DVec3;
 use medium::Inside;
 
@@ -118,9 +118,11 @@ const MOST_VEILS: u32 = 100;
 
 /// Part of a sight ray, from one surface to the next.
 #[derive(Debug, Clone, Copy)]
-struct Leg {
+struct Leg<'w> {
     // The events of the light are `event - s k`. In vacuum k is its wave vector; in a medium it is slower.
     ray: SightRay,
+    // The body that it leaves.
+    from: Option<&'w Departure<'w>>,
     // The wave vector.
     wave: FourVector,
     inside: Inside,
@@ -179,8 +181,8 @@ impl<'p, const N: usize> Path<'p, N> {
 struct Seen<'h, const N: usize> {
     hit: &'h Hit<'h>,
     spot: &'h Spot,
-    departure: Event,
-    leg: &'h Leg,
+    departure: Departure<'h>,
+    leg: &'h Leg<'h>,
     // The light's frequency at the surface, in units of what the observer sees.
     omega: f64,
     // ω where wavelengths are concerned: 1 with the Doppler effect switched off.
@@ -205,10 +207,10 @@ impl<const N: usize> Seen<'_, N> {
         self.spot.k.x / self.spot.k.x.length()
     }
 
-    /// The ray beyond the surface as if that were not there, from `further` metres behind it.
-    fn straight_on(&self, further: f64) -> Leg {
-        let event = self.spot.beyond(self.hit.rest, further);
-        Leg { ray: SightRay { event, ..self.leg.ray }, ..*self.leg }
+    /// The ray beyond the surface as if that were not there.
+    fn straight_on<'d>(&self, beyond: &'d Departure<'d>) -> Leg<'d> {
+        let ray = SightRay { event: beyond.event, ..self.leg.ray };
+        Leg { ray, from: Some(beyond), wave: self.leg.wave, inside: self.leg.inside }
     }
 
     /// The body's own time.
@@ -248,7 +250,7 @@ impl Lit<'_> {
         let mut gathered = Gathered { light: &mut light, caught: None, exit: (0.0, ray.k) };
         let path =
             Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
-        let leg = Leg { ray: *ray, wave: ray.k, inside: Inside::default() };
+        let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
         if self.media.is_empty() {
             self.gather(&leg, &wavelengths.nm, &path, &mut gathered);
         } else {
@@ -259,24 +261,27 @@ impl Lit<'_> {
 
     /// The first hit of a sight ray.
     pub fn first(&self, ray: &SightRay) -> Option<First> {
-        let mut from = *ray;
+        let mut ray = *ray;
+        let mut from = None;
         for _ in 0..MOST_VEILS {
-            let hit = self.world.nearest(&from)?;
-            let spot = hit.spot(&from);
+            let hit = self.world.nearest_from(&ray, from.as_ref())?;
+            let spot = hit.spot(&ray);
             let look = Look { hit: &hit, spot: &spot, radius: 0.0 };
             let veil = self.surfaces.get(hit.surface()).and_then(|surface| surface.veil.as_ref());
             if veil.is_none_or(|veil| veil.share(&look) >= 0.5) {
                 let doppler = Doppler::from_emitted(spot.k.t);
-                return Some(First { doppler, emission: from.at(hit.s), body: hit.placed.body });
+                return Some(First { doppler, emission: ray.at(hit.s), body: hit.placed.body });
             }
-            from.event = spot.beyond(hit.rest, 0.0);
+            let beyond = spot.beyond(hit.rest, 0.0);
+            ray.event = beyond.event;
+            from = Some(beyond);
         }
         None
     }
 
     fn gather<const N: usize>(
         &self,
-        leg: &Leg,
+        leg: &Leg<'_>,
         lanes: &[f64; N],
         path: &Path<'_, N>,
         gathered: &mut Gathered<'_, N>,
@@ -284,13 +289,13 @@ impl Lit<'_> {
         if gathered.caught.is_some() && leg.inside.is_empty() && path.throughput[0] > gathered.exit.0 {
             gathered.exit = (path.throughput[0], leg.wave);
         }
-        let Some(hit) = self.world.nearest(&leg.ray) else {
+        let Some(hit) = self.world.nearest_from(&leg.ray, leg.from) else {
             return self.add_surroundings(leg, lanes, path, gathered);
         };
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };
         let spot = hit.spot(&leg.ray);
         let in_vacuum = leg.inside.is_empty();
-        let omega = if in_vacuum { spot.k.t } else { (hit.rest.rest_from_lab * leg.wave).t };
+        let omega = if in_vacuum { spot.k.t } else { hit.rest.rest_from_lab.light(leg.wave).t };
         if omega <= 0.0 {
             return; // Light in a medium cannot overtake what is faster than it.
         }
@@ -332,7 +337,8 @@ impl Lit<'_> {
             let path =
                 Path { veils: seen.path.veils - 1, way: seen.way, ..seen.path.dimmed(1.0 - share, &step) };
             if !path.is_faint(self.faintest) {
-                self.gather(&seen.straight_on(0.0), seen.lanes, &path, gathered);
+                let beyond = seen.spot.beyond(seen.hit.rest, 0.0);
+                self.gather(&seen.straight_on(&beyond), seen.lanes, &path, gathered);
             }
         }
     }
@@ -382,14 +388,14 @@ impl Lit<'_> {
     /// Light from beyond all bodies.
     fn add_surroundings<const N: usize>(
         &self,
-        leg: &Leg,
+        leg: &Leg<'_>,
         lanes: &[f64; N],
         path: &Path<'_, N>,
         gathered: &mut Gathered<'_, N>,
     ) {
         for surroundings in self.surroundings {
             let (escaped, left) = self.escaped(leg, lanes[0]);
-            let k: FourVector<Rest> = surroundings.rest_from_lab * escaped;
+            let k: FourVector<Rest> = surroundings.rest_from_lab.light(escaped);
             let shift = self.effects.shift(k.t);
             let cone = (path.cone.sample / k.t, path.cone.pixel / k.t);
             let mut radiance =

@@ -7,7 +7,7 @@ use super::Lit;
 use crate::fresnel;
 use crate::lamp::Connection;
 use crate::surface::{Glass, Look, Scatter, Surface, Tint};
-use crate::world::Hit;
+use crate::world::{Departure, Hit};
 
 /// What is left of a lamp's light.
 #[derive(Debug)]
@@ -112,20 +112,20 @@ impl Colored<'_> {
 impl Lit<'_> {
     /// What is left of a lamp's light where it arrives; none if nothing is.
     #[inline]
-    pub(super) fn passage(&self, connection: &Connection) -> Option<Passage<'_>> {
+    pub(super) fn passage(&self, connection: &Connection, from: &Departure<'_>) -> Option<Passage<'_>> {
         if self.see_through {
-            return self.passage_through(connection);
+            return self.passage_through(connection, from);
         }
-        (!self.world.blocked(&connection.ray, connection.s_lamp)).then_some(Passage::CLEAR)
+        (!self.world.blocked(&connection.ray, Some(from), connection.s_lamp)).then_some(Passage::CLEAR)
     }
 
     /// The same where surfaces may let light through.
-    fn passage_through(&self, connection: &Connection) -> Option<Passage<'_>> {
+    fn passage_through(&self, connection: &Connection, from: &Departure<'_>) -> Option<Passage<'_>> {
         let mut passage = Passage::CLEAR;
         let ray = &connection.ray;
         // An edge belongs to two triangles, and counts once.
         let mut met: Vec<(usize, f64)> = Vec::new();
-        let blocked = self.world.until(ray, connection.s_lamp, |hit: Hit<'_>| {
+        let blocked = self.world.until(ray, Some(from), connection.s_lamp, |hit: Hit<'_>| {
             let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
             if !surface.lets_through() {
                 return true;
@@ -165,7 +165,7 @@ impl Lit<'_> {
         for (medium, way) in colored.ways(connection.s_lamp) {
             let Some(medium) = self.media.get(medium as usize) else { continue };
             let Some(absorption) = &medium.absorption else { continue };
-            let k = medium.rest_from_lab * connection.ray.k;
+            let k = medium.rest_from_lab.light(connection.ray.k);
             let shift = self.effects.shift(omega / k.t);
             for (value, nm) in light.iter_mut().zip(nm) {
                 *value *= absorption.after(way * k.t, nm * shift);

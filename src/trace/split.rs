@@ -106,7 +106,7 @@ impl Lit<'_> {
     fn expected(&self, wave: FourVector, exit: &mut dyn FnMut(f64) -> FourVector) -> Vec<f64> {
         let mut all = Vec::new();
         for rest in &self.world.frames {
-            let shift = |wave: FourVector| self.effects.shift((rest.rest_from_lab * wave).t);
+            let shift = |wave: FourVector| self.effects.shift(rest.rest_from_lab.light(wave).t);
             let mut last = f64::NEG_INFINITY;
             for line in self.lines {
                 if line - last < BROAD_NM {

@@ -2,7 +2,7 @@
 
 use super::RestFrame;
 use super::placed::{Form, Met, Placed};
-use crate::spacetime::{Event, FourVector, Rest, SightRay};
+use crate::spacetime::{Event, FourVector, Lab, Poincare, Rest, SightRay};
 use glam::{DVec2, DVec3};
 
 /// Where a sight ray meets a body.
@@ -36,10 +36,46 @@ pub struct Spot {
     pub grain: f64,
 }
 
+/// Where a ray leaves a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Departure<'w> {
+    /// In the lab.
+    pub event: Event,
+    /// The body's rest frame.
+    pub rest: &'w RestFrame,
+    /// The same event there. On the way through the lab and back it would move by a part γ² of its rounding.
+    pub at: Event<Rest>,
+}
+
+impl Departure<'_> {
+    /// The same event in another rest frame.
+    #[inline]
+    pub fn within(&self, other: &Poincare<Rest, Lab>) -> Event<Rest> {
+        if self.rest.rest_from_lab.boost().is_fast() {
+            let [t, x, y, z] = self.within_fast(other);
+            return Event::new(t, DVec3::new(x, y, z));
+        }
+        *other * self.event
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn within_fast(&self, other: &Poincare<Rest, Lab>) -> [f64; 4] {
+        let own = &self.rest.rest_from_lab;
+        let Event { t, x, .. }: Event<Rest> = if own.boost().velocity() == other.boost().velocity() {
+            // The same frame but for its origin: past the lab.
+            self.at - (*own * other.origin() - Event::ORIGIN)
+        } else {
+            *other * self.event
+        };
+        [t, x.x, x.y, x.z]
+    }
+}
+
 impl Hit<'_> {
     /// The hit as its own rest frame sees it.
     pub fn spot(&self, ray: &SightRay) -> Spot {
-        let k = self.rest.rest_from_lab * ray.k;
+        let k = self.rest.rest_from_lab.light(ray.k);
         let t = (self.rest.rest_from_lab * ray.at(self.s)).t;
         let local = self.placed.local(&self.met);
         let facet = unit(local.facet_normal, k.x);
@@ -133,26 +169,22 @@ fn unit(v: DVec3, otherwise: DVec3) -> DVec3 {
 }
 
 impl Spot {
-    /// The hit's event in the lab, moved off the facet on the side from which it is seen, by more than its rounding on
-    /// the way out and back in.
-    pub fn departure(&self, rest: &RestFrame) -> Event {
+    /// The hit's event, moved off the facet on the side from which it is seen, by more than its rounding.
+    pub fn departure<'w>(&self, rest: &'w RestFrame) -> Departure<'w> {
         self.off(rest, 1.0, 0.0)
     }
 
     /// The same on the other side, and `more` metres further.
-    pub fn beyond(&self, rest: &RestFrame, more: f64) -> Event {
+    pub fn beyond<'w>(&self, rest: &'w RestFrame, more: f64) -> Departure<'w> {
         self.off(rest, -1.0, more)
     }
 
-    fn off(&self, rest: &RestFrame, side: f64, more: f64) -> Event {
-        let gamma = rest.rest_from_lab.boost().velocity().gamma();
-        let origin = rest.rest_from_lab.origin();
-        let size = |t: f64, x: DVec3| t.abs() + x.abs().max_element();
-        let bound = 64.0
-            * f64::EPSILON
-            * gamma
-            * (gamma * (self.size + size(self.event.t, self.event.x)) + size(origin.t, origin.x));
+    /// Rays that leave here meet what is in this rest frame from here, not from the lab: only the rounding of places in
+    /// the rest frame counts.
+    fn off<'w>(&self, rest: &'w RestFrame, side: f64, more: f64) -> Departure<'w> {
+        let bound = 64.0 * f64::EPSILON * self.size;
         let x = self.event.x + self.facet_normal * (side * (bound + more));
-        rest.rest_from_lab.undo(Event::new(self.event.t, x))
+        let at = Event::new(self.event.t, x);
+        Departure { event: rest.rest_from_lab.undo(at), rest, at }
     }
 }

@@ -6,7 +6,7 @@
 mod hit;
 mod placed;
 
-pub use hit::{Hit, Spot};
+pub use hit::{Departure, Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
 
@@ -42,8 +42,17 @@ impl RestFrame {
         self.in_tree..self.placed.len() as u32
     }
 
-    fn nearest(&self, ray: &SightRay, s_max: f64) -> Option<(u32, Met)> {
-        let ray = ray.to(&self.rest_from_lab);
+    /// Where a ray starts, here: without the way through the lab if it comes from a body of this frame.
+    #[inline]
+    fn start(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Event<Rest> {
+        match from {
+            Some(from) if std::ptr::eq(from.rest, self) => from.at,
+            _ => self.rest_from_lab * ray.event,
+        }
+    }
+
+    fn nearest(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> Option<(u32, Met)> {
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut nearest = None;
         let limit = self.tree.walk(&line, s_max, |number, limit| {
@@ -62,8 +71,8 @@ impl RestFrame {
         nearest
     }
 
-    fn any(&self, ray: &SightRay, s_max: f64) -> bool {
-        let ray = ray.to(&self.rest_from_lab);
+    fn any(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> bool {
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let met = |number: u32, limit| {
             if self.placed[number as usize].any(&ray, limit) { -1.0 } else { limit }
@@ -72,8 +81,14 @@ impl RestFrame {
             || self.apart().any(|number| self.placed[number as usize].any(&ray, s_max))
     }
 
-    fn until<'w>(&'w self, ray: &SightRay, s_max: f64, enough: &mut dyn FnMut(Hit<'w>) -> bool) -> bool {
-        let ray = ray.to(&self.rest_from_lab);
+    fn until<'w>(
+        &'w self,
+        ray: &SightRay,
+        from: Option<&Departure<'_>>,
+        s_max: f64,
+        enough: &mut dyn FnMut(Hit<'w>) -> bool,
+    ) -> bool {
+        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
         let line = Line { origin: ray.event.x, step: -ray.k.x };
         let mut stops = |number: u32| {
             let placed = &self.placed[number as usize];
@@ -95,19 +110,24 @@ pub struct World {
 impl World {
     /// The first body that the ray meets: the smallest s over all rest frames.
     pub fn nearest(&self, ray: &SightRay) -> Option<Hit<'_>> {
+        self.nearest_from(ray, None)
+    }
+
+    /// The same for a ray that leaves a body.
+    pub fn nearest_from(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Option<Hit<'_>> {
         let mut nearest: Option<Hit<'_>> = None;
         for rest in &self.frames {
             let s_max = nearest.map_or(f64::INFINITY, |hit| hit.s);
-            if let Some((number, met)) = rest.nearest(ray, s_max) {
+            if let Some((number, met)) = rest.nearest(ray, from, s_max) {
                 nearest = Some(Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met });
             }
         }
         nearest
     }
 
-    /// Whether anything stands in the way at 0 < s < `s_max`.
-    pub fn blocked(&self, ray: &SightRay, s_max: f64) -> bool {
-        self.frames.iter().any(|rest| rest.any(ray, s_max))
+    /// Whether anything stands in the way at 0 < s < `s_max`, of a ray that may leave a body.
+    pub fn blocked(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> bool {
+        self.frames.iter().any(|rest| rest.any(ray, from, s_max))
     }
 
     /// The surfaces of solids without end that an event is within.
@@ -119,8 +139,15 @@ impl World {
         })
     }
 
-    /// All that stands in the way at 0 < s < `s_max`, in no order, until one is enough: whether it was.
-    pub fn until<'w>(&'w self, ray: &SightRay, s_max: f64, mut enough: impl FnMut(Hit<'w>) -> bool) -> bool {
-        self.frames.iter().any(|rest| rest.until(ray, s_max, &mut enough))
+    /// All that stands in the way at 0 < s < `s_max`, in no order, until one is enough: whether it was. The ray may leave
+    /// a body.
+    pub fn until<'w>(
+        &'w self,
+        ray: &SightRay,
+        from: Option<&Departure<'_>>,
+        s_max: f64,
+        mut enough: impl FnMut(Hit<'w>) -> bool,
+    ) -> bool {
+        self.frames.iter().any(|rest| rest.until(ray, from, s_max, &mut enough))
     }
 }

@@ -77,6 +77,16 @@ impl Placed {
         form_from_rest.is_finite().then_some(placed)
     }
 
+    /// The largest coordinate of it, metres.
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// How long it is, metres; 1 m for what has no end.
+    pub fn extent(&self) -> f64 {
+        self.extent
+    }
+
     /// Whether a place in the rest frame is within a solid.
     pub(super) fn contains(&self, x: DVec3) -> bool {
         match &self.form {

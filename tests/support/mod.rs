@@ -2,6 +2,7 @@
 
 pub(crate) mod boosted;
 mod ciede2000;
+pub(crate) mod exact;
 mod heaven;
 mod looking;
 mod meshes;
