@@ -2,7 +2,7 @@
 
 use crate::color::RGB_FROM_XYZ;
 use crate::error::Error;
-use crate::exposure::{Sampling, expose, first_hits};
+use crate::exposure::{Sampling, Uncertainty, expose, expose_settled, first_hits};
 use crate::film::{Development, Negative, meter};
 use crate::observer::View;
 use crate::output::{self, Layers, Movie, Picture8};
@@ -18,16 +18,26 @@ use std::sync::mpsc::{Receiver, sync_channel};
 pub enum Step {
     /// The brightness of the film is known: this luminance (cd/m²) becomes white.
     Metered(f64),
-    /// A picture is on the disk.
-    Picture(PathBuf),
+    /// A picture is on the disk; how far it is settled, if that was asked for.
+    Picture(PathBuf, Option<Settling>),
     /// The film is on the disk.
     Film(PathBuf),
+}
+
+/// How far a picture is settled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settling {
+    /// Its estimated error.
+    pub error: Uncertainty,
+    /// Samples taken, for each pixel in the mean.
+    pub samples: f64,
 }
 
 /// A developed picture on its way to the files.
 struct Print {
     exposure: Exposure,
     negative: Negative,
+    settling: Option<Settling>,
     firsts: Option<Vec<Option<First>>>,
     rgb: Vec<u8>,
 }
@@ -52,12 +62,14 @@ pub fn render(
         let writer = scope.spawn(move || file_all(plan, movie, &inbox, tell));
         let mut last = None;
         for exposure in exposures {
-            let negative =
-                last.take().filter(|_| plan.still).unwrap_or_else(|| negative(scene, plan, exposure));
+            let exposed: (Negative, Option<Settling>) = last
+                .take()
+                .filter(|_| plan.still)
+                .unwrap_or_else(|| exposed(scene, plan, exposure, &development));
             if plan.still {
-                last = Some(negative.clone());
+                last = Some(exposed.clone());
             }
-            if prints.send(print(scene, plan, exposure, &development, negative)).is_err() {
+            if prints.send(print(scene, plan, exposure, &development, exposed)).is_err() {
                 break; // The writer has stopped and says why.
             }
         }
@@ -80,10 +92,18 @@ fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
     scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
 }
 
-fn negative(scene: &Scene, plan: &Plan, exposure: &Exposure) -> Negative {
+fn exposed(
+    scene: &Scene,
+    plan: &Plan,
+    exposure: &Exposure,
+    development: &Development,
+) -> (Negative, Option<Settling>) {
     // Of a still film always the first, so that a part of it has the same bytes.
     let exposure = if plan.still { &plan.exposures[0] } else { exposure };
-    expose(scene, &view(scene, plan, exposure), &plan.sampling)
+    let view = view(scene, plan, exposure);
+    let Some(tolerance) = plan.tolerance else { return (expose(scene, &view, &plan.sampling), None) };
+    let settled = expose_settled(&scene.lit(), &view, &plan.sampling, development, tolerance);
+    (settled.negative, Some(Settling { error: settled.error, samples: settled.samples }))
 }
 
 fn print(
@@ -91,11 +111,11 @@ fn print(
     plan: &Plan,
     exposure: &Exposure,
     development: &Development,
-    negative: Negative,
+    (negative, settling): (Negative, Option<Settling>),
 ) -> Print {
     let view = view(scene, plan, exposure);
     let firsts = plan.exr.then(|| first_hits(scene, &view, negative.width, negative.height));
-    Print { exposure: *exposure, rgb: development.develop(&negative), negative, firsts }
+    Print { exposure: *exposure, rgb: development.develop(&negative), negative, settling, firsts }
 }
 
 fn file_all(
@@ -115,7 +135,7 @@ fn file_all(
         if let Some(movie) = &mut movie {
             movie.push(&print.rgb)?;
         }
-        tell(Step::Picture(path));
+        tell(Step::Picture(path, print.settling));
     }
     if let Some(movie) = movie {
         movie.finish()?;

@@ -34,6 +34,7 @@ mod movie;
 mod needs;
 mod output;
 mod radiance;
+mod settle;
 mod shadow;
 mod sky;
 mod solid;

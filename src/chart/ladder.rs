@@ -37,7 +37,7 @@ pub struct Setting {
 /// Wavelengths of the reference.
 const REFERENCE_WAVELENGTHS: u32 = 64;
 /// The tolerances that are tried.
-const TOLERANCES: [f64; 4] = [4.0, 2.0, 1.0, 0.5];
+const TOLERANCES: [f64; 3] = [4.0, 2.0, 1.0];
 
 /// The setting of the reference.
 pub fn reference(scene: &Scene, plan: &Plan, samples: u32) -> Setting {

@@ -82,11 +82,14 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
         (
             "pictures",
             format!(
-                "{} of {} x {}, {} samples each pixel",
+                "{} of {} x {}, {}",
                 plan.exposures.len(),
                 sampling.width,
                 sampling.height,
-                sampling.samples
+                match plan.tolerance {
+                    Some(tolerance) => format!("99 of 100 pixels to CIEDE2000 {tolerance}"),
+                    None => format!("{} samples each pixel", sampling.samples),
+                }
             ),
         ),
         ("files", format!("{}", plan.folder.display())),

@@ -31,6 +31,8 @@ const EXAMPLES: &str = "\
 Examples:
   terrell render manifests/flyby.yaml
   terrell render manifests/flyby.yaml --exposure 40 --size 1920x1080 --samples 16
+  terrell render manifests/flyby.yaml --exposure 40 --tolerance 1
+  terrell chart manifests/flyby.yaml
   terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
   terrell check manifests/flyby.yaml
   terrell inspect assets/monkey.glb";
@@ -67,6 +69,9 @@ struct RenderArgs {
     /// Samples per pixel
     #[arg(long, value_name = "N")]
     samples: Option<String>,
+    /// How far 99 of 100 pixels may be from the converged picture, in CIEDE2000 (1 is just noticeable), instead of samples
+    #[arg(long, value_name = "CIEDE2000", conflicts_with = "samples")]
+    tolerance: Option<String>,
     /// The folder for the pictures, instead of the manifest's
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
@@ -206,6 +211,9 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
     changes.extend(size_change(args.size.as_deref())?);
     if let Some(samples) = &args.samples {
         changes.push(("picture.samples".to_owned(), samples.clone()));
+    }
+    if let Some(tolerance) = &args.tolerance {
+        changes.push(("picture.tolerance".to_owned(), tolerance.clone()));
     }
     if args.no_video {
         changes.push(("film.video".to_owned(), "off".to_owned()));

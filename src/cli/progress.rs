@@ -1,7 +1,8 @@
 //! How far a film is: a bar with the time left on a terminal, plain lines elsewhere.
 
+use crate::exposure::Uncertainty;
 use crate::plan::Plan;
-use crate::render::Step;
+use crate::render::{Settling, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -16,6 +17,15 @@ pub(super) struct Progress {
     last_line: Option<Instant>,
     done: usize,
     pictures: usize,
+    // The least settled so far.
+    worst: Option<Settling>,
+}
+
+fn worse(one: Option<Settling>, other: Settling) -> Settling {
+    let Some(one) = one else { return other };
+    let error =
+        Uncertainty { mean: one.error.mean.max(other.error.mean), p99: one.error.p99.max(other.error.p99) };
+    Settling { error, samples: one.samples.max(other.samples) }
 }
 
 impl Progress {
@@ -31,7 +41,7 @@ impl Progress {
         if let Some(gauge) = &gauge {
             gauge.enable_steady_tick(Duration::from_millis(250));
         }
-        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures }
+        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures, worst: None }
     }
 
     /// Shows a step.
@@ -39,7 +49,12 @@ impl Progress {
         let path = match step {
             Step::Metered(_) => return,
             Step::Film(path) => return self.say(&format!("film {}", path.display())),
-            Step::Picture(path) => path,
+            Step::Picture(path, settling) => {
+                if let Some(settling) = settling {
+                    self.worst = Some(worse(self.worst, *settling));
+                }
+                path
+            }
         };
         self.done += 1;
         let last = self.done == self.pictures;
@@ -53,7 +68,15 @@ impl Progress {
             let seconds = self.started.elapsed().as_secs_f64();
             let what = if self.pictures == 1 { "picture" } else { "pictures" };
             let folder = path.parent().unwrap_or(path).display();
-            return self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
+            self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
+            if let Some(Settling { error, samples }) = self.worst {
+                self.say(&format!(
+                    "99 of 100 pixels are within CIEDE2000 {:.2} of the converged picture (mean {:.2}), by estimate; up to {samples:.0} samples \
+                     for each pixel",
+                    error.p99, error.mean
+                ));
+            }
+            return;
         }
         let due = self.last_line.unwrap_or(self.started).elapsed() >= BETWEEN_LINES;
         if self.gauge.is_none() && due {

@@ -4,7 +4,7 @@
 //! enough. What is not settled is measured again, as finely as follows. Every pixel decides by itself, and once by what its
 //! neighbours were in the first pass, so the picture is the same on any number of threads.
 
-use super::{Sampling, by_pixel, phases};
+use super::{BRIGHTEST, Sampling, by_pixel, phases};
 use crate::color::{Lab, ciede2000};
 use crate::film::{Development, Negative};
 use crate::observer::View;
@@ -12,6 +12,7 @@ use crate::spectrum::Wavelengths;
 use crate::trace::{Cone, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// Samples of the first pass, and of the second where the first leaves doubts.
 const FIRST: u32 = 4;
@@ -26,7 +27,7 @@ const HALVES: f64 = 0.6;
 /// The part of a neighbour's doubts that is a pixel's own.
 const DOUBT: f64 = 0.5;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
-const SAFETY: f64 = 1.8;
+const SAFETY: f64 = 1.3;
 /// The error of a rule over wavelengths, in parts of its difference from that with half of them.
 const RULES: f64 = 0.25;
 /// The part of the tolerance that may go to the wavelengths.
@@ -68,6 +69,8 @@ impl Uncertainty {
 #[derive(Debug, Clone, Copy)]
 struct Pixel {
     xyz: DVec3,
+    // Standard deviation of its samples, XYZ.
+    spread: DVec3,
     // Estimated errors by the samples and by the wavelengths.
     unsettled: f64,
     unresolved: f64,
@@ -80,12 +83,6 @@ struct Pixel {
 impl Pixel {
     fn error(&self) -> f64 {
         SAFETY * (self.unsettled + self.unresolved)
-    }
-
-    /// How unsettled it would be with so many samples.
-    fn unsettled_with(&self, samples: u32) -> f64 {
-        let less = (f64::from(self.samples) / f64::from(samples)).sqrt();
-        self.unsettled * less * less.sqrt()
     }
 
     /// As many wavelengths as it needs: the error of a rule falls with the square of their number.
@@ -120,19 +117,18 @@ pub fn expose_settled(
 ) -> Settled {
     let size = (sampling.width as usize, sampling.height as usize);
     let rules = Rules::default();
-    let passes: Vec<Pass<'_>> = (0..=MOST.ilog2())
-        .map(|power| Pass {
-            lit,
-            view,
-            development,
-            rules: &rules,
-            offsets: sampling.reconstruction.offsets(1 << power),
-            phases: phases(1 << power),
-        })
-        .collect();
+    let passes: Vec<OnceLock<Pass<'_>>> = (0..=MOST.ilog2()).map(|_| OnceLock::new()).collect();
+    let pass = |samples: u32| Pass {
+        lit,
+        view,
+        development,
+        rules: &rules,
+        offsets: sampling.reconstruction.offsets(samples),
+        phases: phases(samples),
+    };
     let measured = |number: usize, samples: u32, wavelengths: u32| {
         let place = (number % size.0, number / size.0);
-        passes[samples.ilog2() as usize].measured(place, wavelengths)
+        passes[samples.ilog2() as usize].get_or_init(|| pass(samples)).measured(place, wavelengths)
     };
     let tolerance = tolerance / SAFETY;
     let wavelengths = if sampling.wavelengths == 3 { 3 } else { 16 };
@@ -140,7 +136,9 @@ pub fn expose_settled(
         by_pixel(sampling.width, sampling.height, |c, r| measured(r * size.0 + c, FIRST, wavelengths));
     let mut open: Vec<(usize, u32)> = (0..pixels.len())
         .into_par_iter()
-        .filter(|number| doubts(&pixels, size, *number, 1.0) + pixels[*number].unresolved > tolerance)
+        .filter(|number| {
+            doubts(&pixels, size, *number, 1.0, development) + pixels[*number].unresolved > tolerance
+        })
         .map(|number| (number, SECOND))
         .collect();
     while !open.is_empty() {
@@ -155,7 +153,7 @@ pub fn expose_settled(
         }
         let more = |(number, _): (usize, u32)| {
             let pixel = &pixels[number];
-            let samples = pixel.more(doubts(&pixels, size, number, DOUBT), tolerance)?;
+            let samples = pixel.more(doubts(&pixels, size, number, DOUBT, development), tolerance)?;
             Some((number, samples))
         };
         open = open.into_par_iter().filter_map(more).collect();
@@ -167,20 +165,43 @@ pub fn expose_settled(
         negative: Negative {
             width: sampling.width,
             height: sampling.height,
-            xyz: pixels.iter().map(|pixel| pixel.xyz.as_vec3().to_array()).collect(),
+            xyz: pixels
+                .iter()
+                .map(|pixel| pixel.xyz.min(DVec3::splat(BRIGHTEST)).as_vec3().to_array())
+                .collect(),
         },
     }
 }
 
-/// How far a pixel may be from settled: by its own samples, or by a part of what its neighbours would be with as many. (A
-/// few samples may all miss an edge.)
-fn doubts(pixels: &[Pixel], (width, height): (usize, usize), number: usize, part: f64) -> f64 {
+/// How far a pixel may be from settled: by its own samples, or by a part of what its neighbours' would do to it. (A few
+/// samples may all miss an edge; and beside something very bright a little of it counts.)
+fn doubts(
+    pixels: &[Pixel],
+    (width, height): (usize, usize),
+    number: usize,
+    part: f64,
+    development: &Development,
+) -> f64 {
     let (column, row) = (number % width, number / width);
     let rows = row.saturating_sub(1)..(row + 2).min(height);
     let columns = column.saturating_sub(1)..(column + 2).min(width);
     let around = rows.flat_map(|r| columns.clone().map(move |c| r * width + c));
     let own = &pixels[number];
-    around.map(|i| part * pixels[i].unsettled_with(own.samples)).fold(own.unsettled, f64::max)
+    let spread = around.map(|i| pixels[i].spread).fold(DVec3::ZERO, DVec3::max);
+    own.unsettled.max(swing(development, own.xyz, spread * part, own.samples))
+}
+
+/// How much a pixel changes, as it is shown, by what the mean of so many samples with a spread (XYZ) may be off.
+fn swing(development: &Development, xyz: DVec3, spread: DVec3, samples: u32) -> f64 {
+    if spread == DVec3::ZERO {
+        return 0.0;
+    }
+    let share = 1.0 / f64::from(samples);
+    let off = spread * (SPREAD * (share * share.sqrt()).sqrt());
+    let lab = |xyz: DVec3| Lab::of_rgb(development.display(xyz));
+    let whole = lab(xyz);
+    let to = |xyz: DVec3| ciede2000(whole, lab(xyz));
+    to(xyz + off).max(to((xyz - off).max(DVec3::ZERO)))
 }
 
 /// The rules over wavelengths that a pixel may need.
@@ -238,15 +259,14 @@ impl Pass<'_> {
         let lab = |xyz: DVec3| Lab::of_rgb(self.development.display(xyz));
         let whole = lab(xyz);
         let variance = (squared * share - xyz * xyz).max(DVec3::ZERO);
-        let unsettled = if variance == DVec3::ZERO {
+        let spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
+        let samples = self.offsets.len() as u32;
+        let unsettled = if spread == DVec3::ZERO {
             0.0
         } else {
-            let off = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
-                * (SPREAD * (share * spacing).sqrt());
-            let to = |xyz: DVec3| ciede2000(whole, lab(xyz));
-            let halves = odd * (2.0 * share);
-            let halves = ciede2000(lab(halves), lab(xyz * 2.0 - halves));
-            to(xyz + off).max(to((xyz - off).max(DVec3::ZERO))).max(HALVES * halves)
+            let half = odd * (2.0 * share);
+            let halves = ciede2000(lab(half), lab(xyz * 2.0 - half));
+            swing(self.development, xyz, spread, samples).max(HALVES * halves)
         };
         let unresolved = if N > 3 {
             let coarse = (rule.coarse_xyz(&radiance) + lines) * share;
@@ -254,7 +274,6 @@ impl Pass<'_> {
         } else {
             0.0
         };
-        let samples = self.offsets.len() as u32;
-        Pixel { xyz, unsettled, unresolved, samples, wavelengths: N as u32, taken: samples }
+        Pixel { xyz, spread, unsettled, unresolved, samples, wavelengths: N as u32, taken: samples }
     }
 }

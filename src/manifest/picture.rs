@@ -215,6 +215,24 @@ impl Kind for Stops {
 /// A small part of the light.
 struct Faintest;
 
+/// A difference of colours in CIEDE2000.
+struct Tolerance;
+
+impl Kind for Tolerance {
+    type Value = f64;
+    fn shape() -> Shape {
+        Shape::Number("a difference in CIEDE2000, from 0.2 to 20")
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let difference = Real::read(node, reader)?;
+        if (0.2..=20.0).contains(&difference) {
+            return Ok(difference);
+        }
+        let hint = reader.typed("1 (from 0.2 to 20; about 1 is just noticeable)");
+        Err(reader.fault(&node.place, format!("`{difference}` is not a tolerance"), hint))
+    }
+}
+
 impl Kind for Faintest {
     type Value = f64;
     fn shape() -> Shape {
@@ -244,6 +262,9 @@ record! {
         faintest: f64 = Faintest, default(1e-3), "0.0001";
         /// How many wavelengths are traced: 8, 16 (unless said), 32 or 64.
         wavelengths: u32 = Wavelengths, default(16), "32";
+        /// Asks for accuracy instead: 99 of 100 pixels are to be within this of the converged picture, in CIEDE2000 (about 1 is
+        /// just noticeable). Each gets the samples and wavelengths that it needs, whatever `samples` and `wavelengths` say.
+        tolerance: Option<f64> = Tolerance, optional, "1";
         /// How samples are weighed: `gaussian` (unless said), `tent` or `box`.
         filter: Filter = Filter, default(Filter::Gaussian), "tent";
         /// The luminance that is shown as white, or `auto` (unless said): from the brightness of the whole film.

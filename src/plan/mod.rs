@@ -42,6 +42,8 @@ pub struct Plan {
     pub exposures: Vec<Exposure>,
     /// How finely.
     pub sampling: Sampling,
+    /// How far 99 of 100 pixels may be from the converged picture (CIEDE2000), where that is asked for instead of samples.
+    pub tolerance: Option<f64>,
     /// Whether all exposures are the same picture.
     pub still: bool,
     /// How bright.
@@ -86,6 +88,7 @@ impl Plan {
                 },
                 wavelengths: if needs::three_wavelengths(scene).yes { 3 } else { picture.wavelengths },
             },
+            tolerance: picture.tolerance,
             still: needs::still(scene).yes,
             white: white(picture),
             film_rate,

@@ -1,0 +1,168 @@
+//! Pictures asked for by their error, and the chart of what settings cost and give.
+
+use crate::support::manifested;
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+use terrell::chart::{self, Deviation, Method, Setting, Subject};
+use terrell::color::{Lab, ciede2000};
+use terrell::error::Report;
+use terrell::exposure::{Sampling, Uncertainty, expose_lit, expose_settled};
+use terrell::film::{Development, Negative};
+use terrell::manifest;
+use terrell::plan::Plan;
+use terrell::render::white;
+use terrell::scene::{Scene, compose};
+
+fn committed() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("manifests");
+    let mut all: Vec<PathBuf> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    all.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    all.sort();
+    assert!(all.len() >= 9);
+    all
+}
+
+fn loaded(path: &Path, size: (u32, u32)) -> (Scene, Plan) {
+    let mut report = Report::default();
+    let changes = [("picture.size".to_owned(), format!("{} {}", size.0, size.1))];
+    let manifest = manifest::load_with(path, &changes, &mut report).unwrap();
+    let scene = compose(&manifest, path, &mut report).unwrap();
+    let plan = Plan::of(&manifest, &scene, path, &mut report);
+    assert!(report.faults.is_empty(), "{:?}", report.faults);
+    (scene, plan)
+}
+
+#[test]
+fn reported_error_holds_on_every_committed_manifest() {
+    const TOLERANCE: f64 = 3.0;
+    for path in committed() {
+        let (scene, plan) = loaded(&path, (48, 27));
+        let tau = plan.exposures[plan.exposures.len() / 2].tau;
+        let view = scene.observer.view(tau, 48, 27);
+        let development = Development { white: white(&scene, &plan) };
+        let wavelengths = if plan.sampling.wavelengths == 3 { 3 } else { 32 };
+        let fine = Sampling { samples: 256, wavelengths, ..plan.sampling };
+        let reference = expose_lit(&scene.lit(), &view, &fine);
+        let settled = expose_settled(&scene.lit(), &view, &plan.sampling, &development, TOLERANCE);
+        let real = Deviation::between(&settled.negative, &reference, &development).shown;
+        let name = path.file_stem().unwrap().display();
+        // The reference itself is not exact.
+        assert!(real.p99 <= 1.1 * settled.error.p99.max(0.1), "{name}: {real:?}, not {:?}", settled.error);
+        assert!(real.mean <= 1.1 * settled.error.mean.max(0.05), "{name}: {real:?}, not {:?}", settled.error);
+        println!("{name} {real:?} {:?} {}", settled.error, settled.samples);
+    }
+}
+
+/// A disk that shines before darkness: its edge alone needs samples.
+const DISK: &str = "
+light_speed: 1 m/s
+assets: { ball: { sphere: { radius: 1 m } } }
+bodies:
+  - { asset: ball, material: { emission: { luminance: 50 cd/m2 } } }
+observer: { at: 0 0 6 m, look_at: ball, field_of_view: 50 deg }
+exposures: { at: 0 s }
+picture: { size: 96 96, white: 100 cd/m2 }
+output: out
+";
+
+#[test]
+fn tolerance_costs_less_than_the_even_setting_that_is_as_good() {
+    let (_, scene, plan) = manifested(DISK);
+    let view = scene.observer.view(0.0, 96, 96);
+    let development = Development { white: 100.0 };
+    let lit = scene.lit();
+    let even = |samples: u32| expose_lit(&lit, &view, &Sampling { samples, ..plan.sampling });
+    let reference = even(4096);
+    let settled = expose_settled(&lit, &view, &plan.sampling, &development, 1.0);
+    let error = |negative: &Negative| Deviation::between(negative, &reference, &development).shown.p99;
+    let real = error(&settled.negative);
+    assert!(real <= 1.0, "{real}");
+    let as_good = (0..12).map(|power| 1_u32 << power).find(|samples| error(&even(*samples)) <= real).unwrap();
+    assert!(f64::from(as_good) > 2.0 * settled.samples, "{as_good} samples against {}", settled.samples);
+}
+
+#[test]
+fn settled_picture_is_the_same_on_any_number_of_threads() {
+    let (_, scene, plan) = manifested(DISK);
+    let view = scene.observer.view(0.0, 96, 96);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let development = Development { white: 100.0 };
+        pool.install(|| expose_settled(&scene.lit(), &view, &plan.sampling, &development, 2.0))
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn deviation_of_a_picture_from_itself_is_none_and_of_a_brighter_one_is_known() {
+    let (_, scene, plan) = manifested(DISK);
+    let view = scene.observer.view(0.0, 96, 96);
+    let picture = expose_lit(&scene.lit(), &view, &plan.sampling);
+    let development = Development { white: 100.0 };
+    let none = Deviation::between(&picture, &picture, &development);
+    assert_eq!((none.rmse, none.shown.p99), (0.0, 0.0));
+    let mut brighter = picture.clone();
+    brighter.xyz.iter_mut().flatten().for_each(|value| *value *= 1.25);
+    let off = Deviation::between(&brighter, &picture, &development);
+    assert!((off.rmse - 0.25).abs() < 1e-6, "{off:?}");
+    // 99 in 100 take in the disk's inside, which is one colour.
+    let lab = |y: f64| Lab::of_rgb(DVec3::splat(y));
+    assert!((off.shown.p99 - ciede2000(lab(0.5), lab(0.625))).abs() < 0.05, "{off:?}");
+}
+
+#[test]
+fn ninety_nine_in_a_hundred_are_not_above() {
+    let error = Uncertainty::of((1..=200).map(f64::from).collect());
+    assert_eq!((error.mean, error.p99), (100.5, 198.0));
+}
+
+#[test]
+fn ladder_has_the_default_and_names_the_cheapest_that_is_fine() {
+    let (_, scene, plan) = manifested(DISK);
+    let plan = Plan { sampling: Sampling { width: 24, height: 24, ..plan.sampling }, ..plan };
+    let subject = Subject { scene: &scene, tau: 0.0, development: Development { white: 100.0 } };
+    let settings = chart::ladder(&scene, &plan);
+    assert_eq!(settings.iter().filter(|setting| setting.default).count(), 1);
+    assert!(settings.iter().any(|setting| setting.method == Method::Tolerance(1.0)));
+    let (reference, ..) = subject.expose(&chart::reference(&scene, &plan, 256));
+    let count = settings.len();
+    let measured = subject.measure(settings, &reference, 1, |_| {});
+    assert_eq!(measured.len(), count);
+    let best = chart::cheapest(&measured).unwrap();
+    assert!(best.deviation.shown.p99 < 1.0);
+    for one in &measured {
+        assert!(one.seconds >= best.seconds || one.deviation.shown.p99 >= 1.0);
+    }
+    let front = chart::front(&measured, |one| one.deviation.rmse);
+    for pair in front.windows(2) {
+        let [fast, slow] = [pair[0], pair[1]].map(|number| &measured[number]);
+        assert!(fast.seconds <= slow.seconds && fast.deviation.rmse > slow.deviation.rmse);
+    }
+    let rows = chart::csv(&measured);
+    assert_eq!(rows.lines().count(), count + 1);
+    let drawing = chart::svg("a <disk>", &measured);
+    assert!(drawing.contains("a &lt;disk&gt;") && drawing.matches("<circle").count() >= 3 * count);
+    let tags = |open: &str| drawing.matches(open).count();
+    assert_eq!(tags("<svg"), tags("</svg>"));
+    assert_eq!(tags("<text"), tags("</text>"));
+}
+
+#[test]
+fn steps_change_one_thing_at_a_time() {
+    let (_, scene, plan) = manifested(DISK);
+    let settings = chart::ladder(&scene, &plan);
+    let default = settings.iter().find(|setting| setting.default).unwrap();
+    let same = |one: &Setting, other: &Setting| {
+        [
+            one.sampling.samples == other.sampling.samples,
+            one.sampling.wavelengths == other.sampling.wavelengths,
+            one.depth == other.depth,
+            one.footprints == other.footprints,
+            one.method == other.method,
+        ]
+    };
+    for setting in settings.iter().filter(|setting| !setting.default && setting.series != "everything on") {
+        let changed = same(setting, default).iter().filter(|same| !**same).count();
+        assert_eq!(changed, 1, "{} {}", setting.series, setting.label);
+    }
+}
