@@ -36,17 +36,17 @@ fn loaded(path: &Path, size: (u32, u32)) -> (Scene, Plan) {
 fn reported_error_holds_on_every_committed_manifest() {
     const TOLERANCE: f64 = 3.0;
     for path in committed() {
-        let (scene, plan) = loaded(&path, (48, 27));
+        let (scene, plan) = loaded(&path, (32, 18));
         let tau = plan.exposures[plan.exposures.len() / 2].tau;
-        let view = scene.observer.view(tau, 48, 27);
+        let view = scene.observer.view(tau, 32, 18);
         let development = Development { white: white(&scene, &plan) };
         let wavelengths = if plan.sampling.wavelengths == 3 { 3 } else { 32 };
-        let fine = Sampling { samples: 256, wavelengths, ..plan.sampling };
+        let fine = Sampling { samples: 1024, wavelengths, ..plan.sampling };
         let reference = expose_lit(&scene.lit(), &view, &fine);
         let settled = expose_settled(&scene.lit(), &view, &plan.sampling, &development, TOLERANCE);
         let real = Deviation::between(&settled.negative, &reference, &development).shown;
         let name = path.file_stem().unwrap().display();
-        // The reference itself is not exact.
+        // The reference has as many samples as any pixel may get; it is not exact either.
         assert!(real.p99 <= 1.1 * settled.error.p99.max(0.1), "{name}: {real:?}, not {:?}", settled.error);
         assert!(real.mean <= 1.1 * settled.error.mean.max(0.05), "{name}: {real:?}, not {:?}", settled.error);
         println!("{name} {real:?} {:?} {}", settled.error, settled.samples);
