@@ -190,12 +190,14 @@ fn points(
         let wide = 6.8 * label.len() as f64;
         // Where nothing else stands.
         let sides = [
+            (6.0, -8.0),
+            (7.0, 17.0),
+            (-6.0 - wide, -8.0),
+            (-7.0 - wide, 17.0),
             (9.0, 4.0),
-            (9.0, -10.0),
-            (9.0, 18.0),
             (-9.0 - wide, 4.0),
-            (-9.0 - wide, -10.0),
-            (-9.0 - wide, 18.0),
+            (6.0, -21.0),
+            (7.0, 30.0),
         ];
         let free = sides.into_iter().find(|(dx, dy)| {
             let (a, b, v) = (x + dx, x + dx + wide, y + dy - 4.0);

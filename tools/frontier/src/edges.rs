@@ -11,7 +11,7 @@ use std::path::Path;
 use terrell::spacetime::{Circle, Course, Event, Velocity, Worldline};
 
 /// The greatest γ that manifests and observers may have.
-pub const GREATEST_GAMMA: f64 = 1e5;
+pub const GREATEST_GAMMA: f64 = 1e8;
 
 const OURS: &str = "#0a1a5c";
 const COLORS: [&str; 5] = ["#d00000", "#e69138", "#00a0a0", "#8e44ad", "#6fbf69"];
@@ -123,7 +123,7 @@ fn speed_panels() -> Vec<Panel> {
     let label = "γ of the body";
     let relative = "relative error";
     let (x, y) = ((1.0, 1e8), (1e-17, 10.0));
-    let words = "ours: γ up to 1e5";
+    let words = "ours: γ up to 1e8";
     let going = |gamma| at_speed(gamma, -1.0);
     let coming = |gamma| at_speed(gamma, 1.0);
     let panel = |title, lines| panel(title, label, relative, x, y, lines).guaranteed(GREATEST_GAMMA, words);
@@ -219,7 +219,7 @@ fn rocket_panel() -> Panel {
         (1e-17, 10.0),
         lines,
     )
-    .guaranteed(GREATEST_GAMMA, "ours: γ up to 1e5")
+    .guaranteed(GREATEST_GAMMA, "ours: γ up to 1e8")
 }
 
 /// Where an observer at 0.9999 c is after so many turns.

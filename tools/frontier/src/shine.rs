@@ -39,6 +39,7 @@ fn glow_seen<const N: usize>(doppler: f64, kelvin: f64) -> DVec3 {
         ambient: &[],
         surroundings: &[],
         see_through: false,
+        footprints: false,
         lines: &[],
         effects: Effects::ALL,
         depth: 1,
@@ -100,5 +101,5 @@ pub fn light_panel() -> Panel {
         (1e-6, 1e6),
         lines,
     )
-    .guaranteed(2.0 * GREATEST_GAMMA, "ours: 5e-6 to 2e5")
+    .guaranteed(2.0 * GREATEST_GAMMA, "ours: 5e-9 to 2e8")
 }

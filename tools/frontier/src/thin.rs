@@ -114,7 +114,8 @@ pub fn wrong(size: f64, method: Method) -> f64 {
         let spot = hit.spot(&ray);
         let met = if method == Method::Ours {
             let k = rest_from_lab.boost().inverse() * FourVector::<Rest>::new(1.0, -sun);
-            world.blocked(&SightRay { event: spot.departure(hit.rest), k }, f64::INFINITY)
+            let from = spot.departure(hit.rest);
+            world.blocked(&SightRay { event: from.event, k }, Some(&from), f64::INFINITY)
         } else {
             let start = method.start(spot.event.x, spot.facet_normal);
             let back = map.inverse();
