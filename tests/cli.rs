@@ -204,3 +204,32 @@ fn both_importers_read_what_blender_wrote_of_the_same_head() {
     // The OBJ is coarser, so it is a little smaller.
     assert!(glb.iter().zip(obj).all(|(a, b)| (a - b).abs() < 0.05 * a.abs()), "{glb:?} {obj:?}");
 }
+
+#[test]
+fn chart_leaves_a_drawing_and_a_table_and_names_settings() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let small = ["manifests/flyby.yaml", "--size", "32x18", "--runs", "1", "--reference", "8"];
+    let output = terrell(&[&["chart"], &small[..], &["--out", out]].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    assert_eq!(names(&folder), ["chart.csv", "chart.svg"]);
+    for words in ["the default, 4 samples, 16 wavelengths", "--tolerance 1", "just noticeable"] {
+        assert!(said(&output).contains(words), "{words}: {}", said(&output));
+    }
+    let beyond = terrell(&[&["chart"], &small[..], &["--exposure", "96"]].concat());
+    assert_eq!(beyond.status.code(), Some(2));
+    assert!(said(&beyond).contains("numbered from 0 to 95"), "{}", said(&beyond));
+}
+
+#[test]
+fn tolerance_is_told_how_it_was_met_and_refuses_what_is_none() {
+    let (_, output) =
+        rendered(&["manifests/flyby.yaml", "--size", "32x18", "--exposure", "40", "--tolerance", "8"]);
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(said(&output).contains("99 of 100 pixels are within CIEDE2000"), "{}", said(&output));
+    for wrong in ["0.01", "much"] {
+        let (_, output) = rendered(&["manifests/flyby.yaml", "--tolerance", wrong]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains("tolerance"), "{}", said(&output));
+    }
+}
