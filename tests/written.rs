@@ -1,14 +1,9 @@
 //! A scene that another observer writes down as a manifest gives the same picture.
 
-use super::support::boosted;
+use super::support::{boosted, manifested};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
-use std::path::Path;
-use terrell::error::Report;
 use terrell::exposure::expose;
-use terrell::manifest;
-use terrell::plan::Plan;
-use terrell::scene::compose;
 use terrell::spacetime::{Event, Velocity};
 
 /// Where something is, as a manifest says it.
@@ -86,13 +81,7 @@ fn manifest_seen_by(by: Option<Velocity>) -> String {
 }
 
 fn picture(text: &str) -> Vec<[f32; 3]> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("manifests/written.yaml");
-    let mut report = Report::default();
-    let manifest = manifest::parse(&path, text, &mut report);
-    let scene = manifest.as_ref().and_then(|manifest| compose(manifest, &path, &mut report));
-    assert!(report.faults.is_empty(), "{:?}\n{text}", report.faults);
-    let (manifest, scene) = (manifest.unwrap(), scene.unwrap());
-    let plan = Plan::of(&manifest, &scene, &path, &mut report);
+    let (_, scene, plan) = manifested(text);
     let view = scene.observer.view(plan.exposures[0].tau, plan.sampling.width, plan.sampling.height);
     expose(&scene, &view, &plan.sampling).xyz
 }
