@@ -1,8 +1,8 @@
 //! A picture asked for by its error: each pixel gets the samples and the wavelengths that it needs.
 //!
 //! How far its samples lie apart tells how far a pixel is settled, and a second rule over its wavelengths tells whether they are
-//! enough. What is not settled is measured again, as finely as follows. Every pixel decides by itself, and once by what its
-//! neighbours were in the first pass, so the picture is the same on any number of threads.
+//! enough. What is not settled is measured again, as finely as follows from that. Every pixel decides by itself and by what its
+//! neighbours were in the pass before, so the picture is the same on any number of threads.
 
 use super::{BRIGHTEST, Sampling, by_pixel, phases};
 use crate::color::{Lab, ciede2000};
