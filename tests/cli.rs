@@ -121,6 +121,54 @@ fn check_says_what_the_scene_needs() {
     }
 }
 
+/// A grey and a skin-coloured ball in daylight, of which the lamp and the balls recede or rest.
+fn receding(beta: f64) -> String {
+    let skin = "{ table: [[400, 0.18], [450, 0.22], [500, 0.28], [570, 0.32], [600, 0.5], [700, 0.6]] }";
+    format!(
+        "light_speed: 1 m/s
+assets: {{ ball: {{ sphere: {{ radius: 1 m }} }} }}
+bodies:
+  - {{ asset: ball, at: 0 0 0 m, velocity: 0 0 -{beta} c, material: {{ diffuse: {skin} }} }}
+lights: [ {{ sun: {{ illuminance: 50000 lx, spectrum: LIGHT }}, velocity: 0 0 -{beta} c }} ]
+observer: {{ at: 0 0 4 m, look_at: 0 0 0 m }}
+exposures: {{ from: 0 s, to: 0 s, count: 1 }}
+picture: {{ size: 64 36 }}
+output: out
+"
+    )
+}
+
+#[test]
+fn check_says_when_more_wavelengths_are_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.yaml");
+    let check = |light: &str| {
+        std::fs::write(&path, receding(0.3).replace("LIGHT", light)).unwrap();
+        said(&terrell(&["check", path.to_str().unwrap()]))
+    };
+    // A spectrum of teeth that 16 wavelengths cannot see, and one as smooth as can be.
+    let teeth: Vec<String> = (0..46).map(|i| format!("[{}, {}]", 300 + 10 * i, i % 2)).collect();
+    let rough = check(&format!("{{ table: [{}] }}", teeth.join(", ")));
+    assert!(rough.contains("write `wavelengths: "), "{rough}");
+    let smooth = check("{ black_body: 5000 K }");
+    assert!(smooth.contains("would differ by less") && !smooth.contains("write `wavelengths: "), "{smooth}");
+}
+
+#[test]
+fn pictures_too_small_for_a_film_can_be_made_alone() {
+    let small = ["manifests/flyby.yaml", "--size", "12x8"];
+    let film = terrell(&[&["render"], &small[..]].concat());
+    assert!(!film.status.success() && said(&film).contains("a film cannot be 12 x 8"), "{}", said(&film));
+    let (folder, output) = rendered(&[&small[..], &["--exposure", "3"]].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    assert_eq!(names(&folder), ["0003.png"]);
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let chart =
+        terrell(&[&["chart"], &small[..], &["--runs", "1", "--reference", "2", "--out", out]].concat());
+    assert!(chart.status.success(), "{}", said(&chart));
+}
+
 #[test]
 fn inspect_names_what_can_be_copied_into_a_manifest() {
     let tree = said(&terrell(&["inspect", "assets/studio.glb"]));

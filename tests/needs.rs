@@ -1,6 +1,6 @@
 //! What is not needed is not done, and the picture is the same as with everything on.
 
-use crate::support::{manifested, relative_difference};
+use crate::support::{manifested, needless, relative_difference};
 use terrell::exposure::{Sampling, expose_lit};
 use terrell::film::Negative;
 use terrell::manifest::Manifest;
@@ -167,6 +167,26 @@ fn film_in_which_nothing_moves_is_one_picture() {
     for (material, observer) in [(blinking, "0 0 0 m/s"), (MIRROR, "0 0 0.2 m/s")] {
         let (_, _, plan) = daylight(material, "D65", observer);
         assert!(!plan.still, "{material}, {observer}");
+    }
+}
+
+#[test]
+fn what_nobody_sees_changes_the_plan_and_not_the_picture() {
+    for pair in needless::all((64, 36)) {
+        let needless::Needless { part, what, .. } = pair;
+        let of = |text: &str| {
+            let (_, scene, plan) = manifested(text);
+            let parts = needs::parts(&scene, &plan);
+            let choice = parts.iter().find(|other| other.name == part).map(|found| found.choice.clone());
+            let sampling = plan.sampling;
+            let view = scene.observer.view(plan.exposures[0].tau, sampling.width, sampling.height);
+            let picture = expose_lit(&scene.lit(), &view, &sampling);
+            (choice.unwrap_or_else(|| panic!("no part {part}")), picture)
+        };
+        let (planned, everything) = (of(&pair.plain), of(&pair.with));
+        assert_ne!(planned.0, everything.0, "{part}: {what}");
+        let error = relative_difference(&planned.1, &everything.1);
+        assert!(error <= pair.tolerance, "{part}, {what}: {error:e}");
     }
 }
 

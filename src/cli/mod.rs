@@ -171,10 +171,11 @@ fn colored() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }
 
-/// What a manifest asks for and means, with warnings printed; or all faults.
-fn prepare(path: &Path, changes: &[(String, String)]) -> Result<(Manifest, Scene, Plan), Error> {
+/// What a manifest asks for and means, with warnings printed; or all faults. `film`: whether its film may be wanted.
+fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
     let manifest = manifest::load_with(path, changes, &mut report);
+    let manifest = manifest.map(|written| Manifest { film: written.film.filter(|_| film), ..written });
     let scene = manifest.as_ref().and_then(|manifest| compose(manifest, path, &mut report));
     let plan = manifest.as_ref().zip(scene.as_ref());
     let plan = plan.map(|(manifest, scene)| Plan::of(manifest, scene, path, &mut report));
@@ -227,7 +228,7 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
 }
 
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
-    let (_, scene, mut plan) = prepare(path, changes)?;
+    let (_, scene, mut plan) = prepare(path, changes, args.exposure.is_none())?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
     }

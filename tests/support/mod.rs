@@ -6,6 +6,7 @@ pub(crate) mod exact;
 mod heaven;
 mod looking;
 mod meshes;
+pub(crate) mod needless;
 mod numbers;
 mod stage;
 mod surfaces;

@@ -1,4 +1,4 @@
-//! The methods that others use, measured beside ours: speed against error, and where they fail.
+//! The methods that others use, measured beside ours: speed against error, and where they fail; and what our plan saves.
 
 #[cfg(test)]
 mod agree;
@@ -9,6 +9,7 @@ mod edges;
 mod error;
 mod frontier;
 mod moved;
+mod needs;
 mod panorama;
 mod rays;
 mod rgb;
@@ -22,10 +23,14 @@ mod thin;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let only = std::env::args().nth(1);
-    if only.as_deref() != Some("frontier") {
+    let wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
+    if wanted("edges") {
         edges::run(folder)?;
     }
-    if only.as_deref() != Some("edges") {
+    if wanted("needs") {
+        needs::run(folder)?;
+    }
+    if wanted("frontier") {
         frontier::run(folder)?;
     }
     Ok(())
