@@ -22,9 +22,9 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
     text += "how it is rendered, and why\n";
     for needs::Part { name, choice, why } in needs::parts(&scene, &plan) {
         text += &format!("  {name:<14} {choice}: {why}\n");
-    }
-    if let Some(found) = wavelengths(&scene, &plan) {
-        text += &format!("  {:<14} {found}\n", "");
+        if let Some(found) = (name == "spectra").then(|| wavelengths(&scene, &plan)).flatten() {
+            text += &format!("  {:<14} {found}\n", "");
+        }
     }
     super::print(&text)
 }
