@@ -156,6 +156,8 @@ fn flowing_water_carries_light_along() -> f64 {
         (2.4, 0.9),
         (2.4, -0.9),
         (2.4, -0.4),
+        // It stands still in the lab.
+        (1.5, -1.0 / 1.5),
         (1.1, 0.7),
     ];
     for (n, b) in cases {
