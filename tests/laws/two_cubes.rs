@@ -11,11 +11,12 @@
 
 use super::Worst;
 use crate::support::{
-    Body, Dice, Eye, Lantern, Stage, black, built, cube, diffuse, edge, flat, light_to, look, plane, v,
+    Body, Dice, Eye, Lantern, Stage, black, built, cube, diffuse, edge, flat, light_to, plane, v,
 };
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use terrell::scene::Scene;
 use terrell::spacetime::{Event, SightRay, Velocity};
+use terrell::spectrum::Wavelengths;
 
 /// When and where, with +y up.
 type Moment = (f64, DVec3);
@@ -112,11 +113,11 @@ fn turn() -> DQuat {
     DQuat::from_axis_angle(v(2.0, -6.0, 3.0) / 7.0, 2.3)
 }
 
-/// What the program shows along a ray.
-fn shown(scene: &Scene, ray: &SightRay) -> State {
+/// What the program shows along a ray. (Wavelengths take longer to choose than to look at.)
+fn shown(scene: &Scene, wavelengths: &Wavelengths<8>, ray: &SightRay) -> State {
     match scene.lit().first(ray) {
         Some(first) if first.body == 0 => {
-            if look(scene, ray).radiance[0] > 0.0 {
+            if scene.lit().seen(ray, wavelengths).radiance[0] > 0.0 {
                 State::Lit
             } else {
                 State::Dark
@@ -175,7 +176,7 @@ fn compare(
 /// On the floor, at moments of its own: each place is looked at from 4 m above it, over the cubes.
 pub(super) fn light_passes_two_cubes_where_they_are_then() -> f64 {
     let (mut worst, mut dice) = (Worst::default(), Dice(131));
-    let (mut met, mut naive) = (0, 0);
+    let (mut met, mut naive, wavelengths) = (0, 0, Wavelengths::new());
     for passing in passings() {
         let scene = passing.stage().scene();
         for t in [-4.0, 0.0, 3.0, 7.0, 16.49, 28.0] {
@@ -188,7 +189,7 @@ pub(super) fn light_passes_two_cubes_where_they_are_then() -> f64 {
                 let ours = |way: f64| passing.state(eye(way), place(way));
                 let shows = |way: f64| {
                     let spot = Event::new(t, turn() * place(way));
-                    shown(&scene, &light_to(turn() * (place(way) + above), spot))
+                    shown(&scene, &wavelengths, &light_to(turn() * (place(way) + above), spot))
                 };
                 met += compare(&mut worst, (60, 0.25), ours, shows);
                 naive += (0..60)
@@ -209,7 +210,7 @@ pub(super) fn light_passes_two_cubes_where_they_are_then() -> f64 {
 
 /// In pictures 1000 pixels wide: the floor's place of each pixel as a pinhole has it.
 pub(super) fn shadows_of_two_cubes_are_seen_later_still() -> f64 {
-    let (mut worst, mut met) = (Worst::default(), 0);
+    let (mut worst, mut met, wavelengths) = (Worst::default(), 0, Wavelengths::new());
     let cameras = [(v(5.0, 5.0, 5.0), v(2.0, 1.0, 0.0)), (v(12.0, 8.0, 0.0), v(5.0, 0.0, -3.0))];
     let (width, height) = (1000, 750);
     for passing in passings() {
@@ -229,7 +230,7 @@ pub(super) fn shadows_of_two_cubes_are_seen_later_still() -> f64 {
                 let camera = Eye { up: turn() * DVec3::Y, ..Eye::at(seen_at, turn() * eye).wide(90.0) };
                 let scene = passing.stage().seen_by(&camera.toward(turn() * forward));
                 let view = scene.observer.view(0.0, width, height);
-                let shows = |pixel: DVec2| shown(&scene, &view.ray(pixel));
+                let shows = |pixel: DVec2| shown(&scene, &wavelengths, &view.ray(pixel));
                 for row in 0..12 {
                     let row = |x: f64| DVec2::new(x, 60.3 * f64::from(row) + 41.7);
                     met += compare(&mut worst, (199, 5.0), |x| ours(row(x)), |x| shows(row(x)));
