@@ -153,7 +153,7 @@ fn sky_ahead_has_its_colour() -> f64 {
 
 /// The mean over the observer's sphere of something seen in the direction n. The nodes are Gauss's in the cosine of the
 /// source's angle, where powers of D are polynomials; the weights are those of the observer's sphere.
-fn mean_over_the_sphere(beta: f64, of: impl Fn(DVec3) -> f64) -> f64 {
+pub(super) fn mean_over_the_sphere(beta: f64, of: impl Fn(DVec3) -> f64) -> f64 {
     let mut sum = 0.0;
     for (place, (cos, weight)) in gauss_legendre(12).into_iter().enumerate() {
         let theta = libm::acos((cos + beta) / (1.0 + beta * cos));

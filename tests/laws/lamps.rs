@@ -1,6 +1,10 @@
 //! Light of moving lamps on moving surfaces, and the shadows in it.
 
-use super::{Worst, chapter};
+use super::brightness::mean_over_the_sphere;
+use super::two_cubes::{
+    light_passes_two_cubes_where_they_are_then, shadows_of_two_cubes_are_seen_later_still,
+};
+use super::{FORWARD, Worst, chapter};
 use crate::support::{
     Body, Dice, Lantern, Stage, along, black, black_body, boosted, built, diffuse, edge, emission_time, flat,
     frequency, light_at_rest, light_to, line, look, speed, square, v,
@@ -21,9 +25,12 @@ chapter! {
     passing_lamp_gives_the_light_of_the_table, "V12", "D⁴I/r²: 0.1736111 and 0.0455111 of I (seven digits)", "x = 0.6 t, y = 3", 2e-6;
     cosine_is_that_in_the_rest_frame_of_the_surface, "V12", "light square to the motion arrives at cos θ = 1/γ", "aberration", 1e-12;
     sun_in_motion_shines_with_the_third_power, "V12", "E(λ) = D³ E′(Dλ) cos θ", "invariance of L_ν/ν³", 1e-12;
+    photons_of_a_moving_lamp_are_conserved, "V12", "mean of E r²/(D² I′) over the directions of the lab = 1", "∮D² dΩ = 4π: no other power than D³ does it", 1e-12;
     irradiance_is_the_same_from_every_frame, "V12", "boosted lamp, patch and ray", "relativity", 1e-10;
     shadow_edge_lags, "V13", "0.6 X = β[t − √((0.4 X)² + 4)] on the floor", "light's way past the edge", 1e-8;
     shadow_edge_is_seen_later_still, "V13", "the same with t = tₒ − |x − X|", "V7 and V13", 1e-9;
+    light_passes_two_cubes_where_they_are_then, "V13", "tₑ = t − γ²[√((R·β)² + R²/γ²) − R·β], R = p(t) − X; straight on past each cube", "V7 for the lamp; slabs", 1e-8;
+    shadows_of_two_cubes_are_seen_later_still, "V13", "the same with t = tₒ − |x − X|; pixels of a picture 1000 wide", "V7 and V13", 1e-7;
 }
 
 /// Chance: a moving lamp, a patch that moves through the origin, and its light in the direction of the eye.
@@ -178,6 +185,26 @@ fn sun_in_motion_shines_with_the_third_power() -> f64 {
                 worst.must(*value < 1e-29);
             }
         }
+    }
+    worst.0
+}
+
+/// Of the photons that the lamp sends at one moment those per solid angle of the lab are E r²/ν, for a time 1/D as long as
+/// the lamp took.
+fn photons_of_a_moving_lamp_are_conserved() -> f64 {
+    let (mut worst, r) = (Worst::default(), 3.0);
+    for b in [0.0, 0.1, 0.5, 0.8, 0.9, 0.99] {
+        let moves = speed(b, FORWARD);
+        let mean = mean_over_the_sphere(b, |n| {
+            let doppler = 1.0 / frequency(moves, n);
+            let patch = Body::new(&built(square()), diffuse(1.0)).sized(0.01).facing(-n).at(r, n * r);
+            let lamp = Lantern::at(0.0, DVec3::ZERO, line(550.0 * doppler, 1.0)).moving(moves);
+            let eye = n * (r - 1.0) + n.any_orthonormal_vector() * 0.7;
+            let ray = light_to(eye, Event::new(r, n * r));
+            let light = look(&Stage::of([patch]).lit_by([lamp]).scene(), &ray).lines.y;
+            PI * light / (LUMENS_PER_WATT * matching(550.0).y) * (r / doppler).powi(2)
+        });
+        worst.apart(mean, 1.0);
     }
     worst.0
 }

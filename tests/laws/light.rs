@@ -2,14 +2,14 @@
 
 use super::{FORWARD, SPEEDS, Worst, aside, chapter, gamma};
 use crate::support::{
-    Body, Dice, Eye, Stage, angle, black_body, built, edge, first, frequency, glowing, icosphere, light_from,
-    line, look, speed, v,
+    Body, Dice, Eye, Stage, angle, black_body, built, edge, first, frequency, glowing, icosphere, line, look,
+    speed, v,
 };
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 use terrell::color::{LUMENS_PER_WATT, matching};
 use terrell::scene::Scene;
-use terrell::spacetime::{Event, Velocity};
+use terrell::spacetime::Velocity;
 use terrell::spectrum::Source;
 
 chapter! {
@@ -108,12 +108,15 @@ fn front_half_of_the_sky_is_a_cone() -> f64 {
 fn stars_of_the_year_move_by_the_angle_of_bradley() -> f64 {
     let mut worst = Worst::default();
     let orbit = 29.7827e3 / 299_792_458.0;
-    let tetrad = Eye::at(0.0, DVec3::ZERO).moving(speed(orbit, FORWARD)).observer().worldline.at(0.0);
+    let (scene, eye) = under_the_sky(black_body(5000.0), speed(orbit, FORWARD));
+    let seconds = |angle: f64| angle.to_degrees() * 3600.0;
     for around in 0..12 {
-        let star = aside(FORWARD, FRAC_PI_2, 0.5 * f64::from(around));
-        let seen = tetrad.direction_of(light_from(star, Event::ORIGIN).k);
-        let seconds = |angle: f64| angle.to_degrees() * 3600.0;
+        // The telescope leans forward by it, and sees the star that stands at right angles.
+        let seen = aside(FORWARD, FRAC_PI_2 - libm::asin(orbit), 0.5 * f64::from(around));
+        let ray = eye.sight(seen);
+        let star = first(&scene, &ray).emission.x - ray.event.x;
         worst.apart(seconds(angle(seen, star)), seconds(libm::asin(orbit)));
+        worst.error(seconds((angle(star, FORWARD) - FRAC_PI_2).abs()));
         worst.must((seconds(angle(seen, star)) - 20.491).abs() < 5e-4);
     }
     worst.0

@@ -1,6 +1,6 @@
 //! Moving mirrors, and light in moving media.
 
-use super::{Worst, chapter, seen_by};
+use super::{Worst, aside, chapter, seen_by};
 use crate::fizeau::paces;
 use crate::glass::{missed_delay, turned_by_moving_plates, within_moving_glass};
 use crate::support::{
@@ -17,6 +17,7 @@ chapter! {
     "Mirrors and media":
     receding_mirror_turns_light, "V10", "cos φ″ = [(1+β²) cos φ − 2β]/(1 − 2β cos φ + β²)", "Einstein 1905 §8", 1e-12;
     receding_mirror_shifts_light, "V10", "ν″/ν = (1 − 2β cos φ + β²)/(1 − β²)", "Einstein 1905 §8", 1e-11;
+    receding_mirror_is_caught_within_a_cone, "V10", "cos φ″ > −β, where cos φ > β", "Einstein 1905 §8", 1e-11;
     own_light_comes_back_shifted_twice, "V10", "ν″/ν = (1−β)/(1+β) along the normal", "Einstein 1905 §8", 1e-11;
     mirror_that_slides_in_its_plane_is_a_mirror_at_rest, "V10", "φ″ = φ, ν″ = ν", "Einstein 1905 §8", 1e-12;
     mirror_may_move_any_way, "V10", "k″ = k − 2N (k·N)/(N·N), N the four-normal", "Householder's map", 1e-11;
@@ -105,6 +106,25 @@ fn receding_mirror_shifts_light() -> f64 {
     worst.0
 }
 
+/// Light that leaves along with the mirror's own pace along the normal never met it: the mirror is seen this side of that.
+fn receding_mirror_is_caught_within_a_cone() -> f64 {
+    let mut worst = Worst::default();
+    for b in [-0.9, -0.5, -0.1, 0.0, 0.1, 0.5, 0.9] {
+        let scene = Stage::of([plate(v(-b, 0.0, 0.0))]).scene();
+        let eye = Event::new(0.0, turn() * v(1.0, 0.0, 0.0));
+        for around in [0.0, 1.0, 4.0] {
+            let shows = |outgoing: f64| {
+                let n = aside(turn() * DVec3::X, outgoing, around);
+                scene.lit().first(&light_from(eye.x - n, eye)).is_some()
+            };
+            worst.apart(edge(0.0, std::f64::consts::PI, shows), libm::acos(-b));
+        }
+        // The last of it had barely caught up: cos φ = β.
+        worst.part(outgoing(b, libm::acos(b)), libm::acos(-b));
+    }
+    worst.0
+}
+
 fn own_light_comes_back_shifted_twice() -> f64 {
     let mut worst = Worst::default();
     for b in [-0.8, -0.5, -0.1, 0.1, 0.3, 0.5, 0.8] {
@@ -156,6 +176,8 @@ fn flowing_water_carries_light_along() -> f64 {
         (2.4, 0.9),
         (2.4, -0.9),
         (2.4, -0.4),
+        // It stands still in the lab.
+        (1.5, -1.0 / 1.5),
         (1.1, 0.7),
     ];
     for (n, b) in cases {

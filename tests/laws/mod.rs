@@ -3,6 +3,7 @@
 //! A law is a function that returns the largest error met. Each has a test of its own; one more writes them all as the
 //! table `tests/LAWS.md` and fails where that is stale.
 
+mod balls;
 mod brightness;
 mod chart;
 mod lamps;
@@ -12,6 +13,7 @@ mod observers;
 mod shape;
 mod symmetry;
 mod table;
+mod two_cubes;
 
 use crate::support::{angle, edge};
 use glam::{DQuat, DVec3};

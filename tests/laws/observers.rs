@@ -1,23 +1,24 @@
 //! Worldlines: rockets, circles, and boosts that follow one another.
 
 use super::{FORWARD, Worst, chapter, gamma};
-use crate::support::{Body, Dice, Stage, angle, black, built, edge, first, icosphere, light_from, v};
-use glam::{DQuat, DVec3};
-use terrell::spacetime::{
-    Boost, Circle, Course, Event, FourVector, Lab, Lorentz, Rest, Tetrad, Velocity, Worldline,
+use crate::support::{
+    Body, Dice, Stage, along, angle, ball, black, built, edge, first, icosphere, light_from, v,
 };
+use glam::{DQuat, DVec3};
+use terrell::spacetime::{Boost, Circle, Course, Event, Lab, Lorentz, Rest, Tetrad, Velocity, Worldline};
 
 chapter! {
     "Observers":
     rocket_moves_on_a_hyperbola, "V9", "t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a, v = tanh(aτ)", "Rindler, Relativity", 1e-12;
     rocket_sees_ahead_blue, "V9", "D = exp(aτ) straight ahead, exp(−aτ) astern", "Rindler, Relativity", 1e-11;
-    one_g_reaches_the_stars, "V9", "t, x, γ after 1, 2, 5, 8, 12 years at 9.80665 m/s² (six digits)", "Rindler, Relativity", 4e-6;
+    one_g_reaches_the_stars, "V9", "t, x, γ after 1, 2, 5, 8, 12 years at 9.80665 m/s², v after 1 and 2 (six digits)", "Rindler, Relativity", 4e-6;
     circling_clock_runs_slow, "V9", "t = γτ", "Einstein 1905 §4", 1e-12;
     circling_observer_sees_the_centre_blue, "V9", "D = γ", "Einstein 1905 §7", 1e-12;
     centre_sees_what_circles_red, "V9", "D = 1/γ", "Einstein 1905 §7", 1e-12;
     rindler_observers_see_each_other_shifted, "V9", "D = Xₑ/Xₒ", "Rindler, Relativity", 1e-12;
     crossed_boosts_turn_by_the_wigner_angle, "V14", "cos Ω = (γ₁ + γ₂)/(1 + γ₁γ₂), γ = γ₁γ₂", "Wigner 1939", 1e-12;
     any_two_boosts_turn_by_the_wigner_angle, "V14", "1 + cos Ω = (1 + γ + γ₁ + γ₂)²/[(1 + γ)(1 + γ₁)(1 + γ₂)]", "Macfarlane 1962", 1e-12;
+    camera_keeps_the_turn_of_its_crossed_motions, "V14", "seen by who has all the speed at once, turned by Ω from the first motion to the second", "Wigner 1939", 1e-12;
     composed_velocity_is_the_sum_of_einstein, "V14", "β = [β₁ + β₂/γ₁ + γ₁β₁(β₁·β₂)/(1 + γ₁)]/(1 + β₁·β₂)", "Einstein 1905 §5", 1e-12;
 }
 
@@ -50,10 +51,14 @@ fn rocket_moves_on_a_hyperbola() -> f64 {
 
 fn rocket_sees_ahead_blue() -> f64 {
     let mut worst = Worst::default();
+    let sky = Body::new(&built(icosphere(2)), black()).sized(1e4);
+    let scene = Stage::of([sky]).scene();
     rockets(|a, tau, along, tetrad| {
-        let doppler = |from: DVec3| light_from(tetrad.event.x + from, tetrad.event).k.dot(tetrad.velocity());
-        worst.part(doppler(along), libm::exp(a * tau));
-        worst.part(doppler(-along), libm::exp(-a * tau));
+        for (side, doppler) in [(along, libm::exp(a * tau)), (-along, libm::exp(-a * tau))] {
+            let found = first(&scene, &tetrad.sight_ray(side));
+            worst.part(found.doppler.factor(), doppler);
+            worst.must((found.emission.x - tetrad.event.x).dot(side) > 0.0);
+        }
     });
     worst.0
 }
@@ -75,6 +80,10 @@ fn one_g_reaches_the_stars() -> f64 {
         worst.part(tetrad.event.t / year, t);
         worst.part(tetrad.event.x.length() / year, distance);
         worst.part(tetrad.velocity().t, gamma);
+    }
+    for (years, speed) in [(1.0, 0.774_827), (2.0, 0.968_318)] {
+        let u = rocket(FORWARD * g).at(years * year).velocity();
+        worst.part(u.x.length() / u.t, speed);
     }
     worst.0
 }
@@ -122,14 +131,21 @@ fn circling_observer_sees_the_centre_blue() -> f64 {
     worst.0
 }
 
+/// A small body that moves along with someone at a moment.
+fn beside(who: &Tetrad) -> Body {
+    let moves = Velocity::from_proper(who.velocity().x);
+    Body::of(ball(1e-9, DVec3::ZERO), black()).at(who.event.t, who.event.x).moving(moves)
+}
+
 fn centre_sees_what_circles_red() -> f64 {
     let mut worst = Worst::default();
     for b in SPEEDS {
         let (worldline, circle) = circling(b);
         for tau in MOMENTS {
             let tetrad = worldline.at(tau);
-            let way = circle.centre - tetrad.event.x;
-            worst.part(1.0 / FourVector::new(4.0, way).dot(tetrad.velocity()) * 4.0, 1.0 / gamma(b));
+            let arrival = Event::new(tetrad.event.t + 4.0, circle.centre);
+            let found = first(&Stage::of([beside(&tetrad)]).scene(), &light_from(tetrad.event.x, arrival));
+            worst.part(found.doppler.factor(), 1.0 / gamma(b));
         }
     }
     worst.0
@@ -151,9 +167,10 @@ fn rindler_observers_see_each_other_shifted() -> f64 {
                 event.t - sent.event.t < (event.x - sent.event.x).dot(way)
             };
             let tau = edge(-20.0 * receiver, 20.0 * receiver, early);
-            let k = FourVector::new(1.0, way);
-            let doppler = k.dot(at(receiver).at(tau).velocity()) / k.dot(sent.velocity());
-            worst.part(doppler, emitter / receiver);
+            let seer = at(receiver).at(tau);
+            let n = seer.direction_of(light_from(sent.event.x, seer.event).k);
+            let found = first(&Stage::of([beside(&sent)]).scene(), &seer.sight_ray(n));
+            worst.part(found.doppler.factor(), emitter / receiver);
         }
     }
     worst.0
@@ -204,6 +221,33 @@ fn any_two_boosts_turn_by_the_wigner_angle() -> f64 {
         },
         false,
     );
+    worst.0
+}
+
+/// A camera in motion starts as a rocket at right angles to that: its picture of the sky is that of a pure boost, turned.
+fn camera_keeps_the_turn_of_its_crossed_motions() -> f64 {
+    let (mut worst, mut dice) = (Worst::default(), Dice(140));
+    let scene = Stage::of([Body::new(&built(icosphere(2)), black()).sized(1e3)]).scene();
+    for (b1, b2, degrees) in
+        [(0.5, 0.5, 8.2132), (0.6, 0.8, 18.924_64), (0.9, 0.3, f64::NAN), (0.1, 0.95, f64::NAN)]
+    {
+        let one = dice.direction();
+        let acceleration = one.cross(dice.direction()).normalize();
+        let course = Course::Rocket { acceleration };
+        let start = crate::support::speed(b1, one);
+        let seer = Worldline::new(Event::ORIGIN, start, DQuat::IDENTITY, course).at(libm::atanh(b2));
+        let (g1, g2) = (gamma(b1), gamma(b2));
+        let angle = libm::acos((g1 + g2) / (1.0 + g1 * g2));
+        worst.must(degrees.is_nan() || (angle.to_degrees() - degrees).abs() < 5e-5);
+        let turn = DQuat::from_axis_angle(one.cross(acceleration), angle);
+        // All the speed at once, across the first as slow as that frame's clocks: β₁ + β₂/γ₁, γ = γ₁γ₂.
+        let all = Velocity::from_proper((one * b1 + acceleration * (b2 / g1)) * (g1 * g2));
+        for _ in 0..30 {
+            let n = dice.direction();
+            let star = first(&scene, &seer.sight_ray(n)).emission.x - seer.event.x;
+            worst.directions(n, turn * -along(all, -star / star.length()));
+        }
+    }
     worst.0
 }
 

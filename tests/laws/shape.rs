@@ -1,6 +1,10 @@
 //! Where and how moving bodies are seen: each at the event from which its light arrives.
 
-use super::{FORWARD, Worst, aside, chapter, gamma, seen_by};
+use super::balls::{
+    far_ball_is_seen_turned, outline_of_a_ball_is_the_circle_of_penrose,
+    outline_of_a_passing_ball_is_that_of_the_table, texture_of_a_ball_is_seen_where_its_light_left,
+};
+use super::{FORWARD, Worst, chapter, gamma, seen_by};
 use crate::support::{
     Body, Dice, Eye, Stage, along, angle, ball, black, black_body, built, cube, edge, emission_time, first,
     glowing, light_from, plane, speed, v,
@@ -13,8 +17,11 @@ use terrell::spacetime::Event;
 chapter! {
     "Shapes and places":
     outline_of_a_ball_is_the_circle_of_penrose, "V4", "rim n·c = √(1 − R²/d²) in its rest frame, boosted as a plane; any observer", "Penrose 1959; Boas 1961", 1e-11;
+    outline_of_a_passing_ball_is_that_of_the_table, "V4", "half angle and centre of its circle at 0.5, 0.8, 0.9 c (degrees, four decimals), all in one plane", "Penrose 1959", 6e-5;
+    texture_of_a_ball_is_seen_where_its_light_left, "V4, V7", "V7 for points of the ball; longitude and latitude there, radians", "Penrose 1959", 1e-7;
     far_ball_is_seen_turned, "V4, V5, V8", "by θ − θ′ with cos θ′ = (cos θ − β)/(1 − β cos θ): arcsin β at 90°", "Terrell 1959", 1e-8;
     far_cube_is_seen_turned, "V5", "front L/γ, trailing side Lβ: the cube at rest turned by arcsin β", "Terrell 1959; Weisskopf 1960", 1e-5;
+    far_dice_in_a_row_are_seen_turned_by_their_angle, "V5, V6, V8", "sides L sin θ′ and L |cos θ′|, apart by L₀ sin θ′: cos θ′ = (cos θ − β)/(1 − β cos θ)", "Terrell 1959; Kraus", 1e-5;
     approaching_rods_are_long_and_receding_ones_short, "V6", "L √((1±β)/(1∓β))", "Lampa 1924", 1e-10;
     apparent_speed_goes_by_the_angle, "V6", "β sin θ/(1 − β cos θ) across, β cos θ/(1 − β cos θ) along", "Rees 1966", 1e-6;
     fastest_apparent_speed_is_at_the_angle_of_beaming, "V6", "βγ at cos θ = β", "Rees 1966", 1e-8;
@@ -25,11 +32,11 @@ chapter! {
     edges_of_dice_in_a_row_are_where_light_left_them, "V8", "V7 for points of the edges; pixels of a picture 1000 wide", "Kraus", 1e-10;
 }
 
-const SPEEDS: [f64; 7] = [0.1, 0.3, 0.5, 0.6, 0.8, 0.9, 0.99];
+pub(super) const SPEEDS: [f64; 7] = [0.1, 0.3, 0.5, 0.6, 0.8, 0.9, 0.99];
 /// For the dots that stand for points.
 const SMALL: f64 = 1e-10;
 
-fn turn() -> DQuat {
+pub(super) fn turn() -> DQuat {
     DQuat::from_axis_angle(v(1.0, 2.0, -2.0) / 3.0, 0.8)
 }
 
@@ -37,56 +44,8 @@ fn dot() -> Body {
     Body::of(ball(SMALL, DVec3::ZERO), black())
 }
 
-fn outline_of_a_ball_is_the_circle_of_penrose() -> f64 {
-    let (mut worst, mut dice) = (Worst::default(), Dice(44));
-    for b in SPEEDS {
-        for _ in 0..6 {
-            let (moves, fast) = (dice.velocity(b), dice.between(0.0, 0.9));
-            let eye = Eye::at(dice.between(-3.0, 12.0), dice.in_cube()).moving(dice.velocity(fast));
-            let place = dice.direction() * 5.0;
-            let scene = Stage::of([Body::of(ball(1.0, DVec3::ZERO), black()).at(0.0, place).moving(moves)])
-                .seen_by(&eye);
-            // The ball and who sees it in the ball's rest frame.
-            let (_, seer) = seen_by(moves, (eye.origin.t, eye.origin.x - place));
-            let far = seer.length();
-            if far < 1.5 {
-                continue;
-            }
-            // The rim lies in n·c = cos α; of light k = (1, -n): k·(cos α, -c) = 0, a product of four-vectors.
-            let rim = ((1.0 - 1.0 / (far * far)).sqrt(), seer / far);
-            let (cos, axis) = seen_by(eye.velocity, seen_by(-moves, rim));
-            let (half, axis) = (libm::acos(cos / axis.length()), -axis / axis.length());
-            for i in 0..12 {
-                let around = f64::from(i) * TAU / 12.0;
-                let sees = |off: f64| scene.lit().first(&eye.sight(aside(axis, off, around))).is_some();
-                worst.apart(edge(0.0, PI, sees), half);
-            }
-        }
-    }
-    worst.0
-}
-
 /// Far enough away for its light to be parallel.
-const FAR: f64 = 1e6;
-
-/// A ball that moves along x at θ to the light that leaves it for the origin.
-fn far_ball_is_seen_turned() -> f64 {
-    let mut worst = Worst::default();
-    for b in SPEEDS {
-        for theta in [0.3, 1.0, FRAC_PI_2, 2.0, 2.9] {
-            let (sin, cos) = libm::sincos(theta);
-            let place = turn() * v(-cos, sin, 0.0) * FAR;
-            let ball = Body::of(ball(1.0, DVec3::ZERO), black()).at(-FAR, place);
-            let scene = Stage::of([ball.moving(speed(b, turn() * DVec3::X))]).scene();
-            let ray = light_from(place, Event::ORIGIN);
-            let hit = scene.world.nearest(&ray).unwrap();
-            let shown = libm::acos((cos - b) / (1.0 - b * cos));
-            let (sin, cos) = libm::sincos(shown);
-            worst.directions(turn().inverse() * hit.spot(&ray).normal, v(cos, -sin, 0.0));
-        }
-    }
-    worst.0
-}
+pub(super) const FAR: f64 = 1e6;
 
 /// Widths of the left and of the right visible side of a far cube.
 fn sides(scene: &Scene, left_normal: DVec3) -> (f64, f64) {
@@ -113,6 +72,56 @@ fn far_cube_is_seen_turned() -> f64 {
         let (left, right) = sides(&Stage::of([turned]).scene(), v(-1.0 / gamma(b), -b, 0.0));
         worst.apart(trailing, left);
         worst.apart(front, right);
+    }
+    worst.0
+}
+
+/// Sides of 0.4, 1.5 from one to the next in their rest frame; they move along x, and the light that leaves them at θ to
+/// that goes to the origin.
+fn far_dice_in_a_row_are_seen_turned_by_their_angle() -> f64 {
+    let mut worst = Worst::default();
+    let (die, half, apart) = (built(cube()), 0.2, 1.5);
+    // The row is longer than a die.
+    let far = 20.0 * FAR;
+    for b in SPEEDS {
+        for at_rest in [0.5, 1.0, FRAC_PI_2, 2.0, 2.6] {
+            let (sin, cos) = libm::sincos(at_rest);
+            let theta = libm::acos((cos + b) / (1.0 + b * cos));
+            let place = v(-libm::cos(theta), -libm::sin(theta), 0.0) * far;
+            let across = v(libm::sin(theta), -libm::cos(theta), 0.0);
+            let bodies = (-2..=2).map(|number| {
+                let body = Body::new(&die, black()).sized(half);
+                let body = body.mapped(DAffine3::from_translation(DVec3::X * (apart * f64::from(number))));
+                let body = body.mapped(DAffine3::from_quat(turn())).at(-far, turn() * place);
+                body.moving(speed(b, turn() * DVec3::X))
+            });
+            let scene = Stage::of(bodies).scene();
+            let ray = |x: f64| light_from(turn() * (place + across * x + v(0.0, 0.0, 0.05)), Event::ORIGIN);
+            for number in 0..5_u32 {
+                let is_there =
+                    |x: f64| scene.world.nearest(&ray(x)).is_some_and(|hit| hit.placed.body == number);
+                let on_end = |x: f64| {
+                    let hit = scene.world.nearest(&ray(x));
+                    hit.is_some_and(|hit| (turn().inverse() * hit.spot(&ray(x)).facet_normal).x.abs() > 0.5)
+                };
+                let middle = (f64::from(number) - 2.0) * apart * sin;
+                let wide = half * (sin + cos.abs());
+                for side in [-1.0, 1.0] {
+                    let end = middle + side * wide;
+                    worst.apart(edge(middle, end + 0.05 * side, is_there), end);
+                }
+                // What approaches shows its front end on the far side, what recedes its other end on the near side.
+                let side = cos.signum();
+                let corner = middle + half * (side * sin - cos);
+                if cos.abs() > 0.1 {
+                    let inside = 1e-4 * side;
+                    worst.apart(
+                        edge(middle + side * wide - inside, middle - side * wide + inside, on_end),
+                        corner,
+                    );
+                }
+            }
+        }
     }
     worst.0
 }

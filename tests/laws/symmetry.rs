@@ -4,14 +4,17 @@ use super::{Worst, chapter, seen_by};
 use crate::equivalence::{Props, SIZE, changes_by_slow_motion, eyes, flown, stopped};
 use crate::light_equivalence;
 use crate::support::{
-    Body, Dice, Eye, Lantern, Stage, along, beta, black, boosted, built, difference, diffuse, emission_time,
-    exposed, flat, frequency, icosphere, light_from, look, square, v,
+    Body, Dice, Eye, Heaven, Lantern, Stage, along, ball, beta, black, black_body, boosted, built,
+    difference, diffuse, emission_time, exposed, first, flat, frequency, icosphere, light_from, look, square,
+    v,
 };
 use crate::terrell::{fitted_cone, outline};
 use glam::{DAffine3, DQuat, DVec3};
+use std::f64::consts::PI;
 use terrell::lamp::Beam;
 use terrell::observer::Aim;
 use terrell::spacetime::{Event, Poincare, Velocity};
+use terrell::spectrum::{Wavelengths, planck};
 
 chapter! {
     "Symmetries":
@@ -21,6 +24,7 @@ chapter! {
     sphere_of_triangles_converges_with_the_square_of_its_edges, "V15 (d)", "outline's error ∝ h²: order 2, fitted over 320 to 20,480 triangles", "chord and arc", 0.1;
     order_of_bodies_and_lamps_changes_nothing, "V15 (e)", "the same picture; part of a pixel's light", "light adds", 1e-12;
     lamps_add, "V15 (g)", "picture of A and B = picture of A + picture of B", "linearity", 1e-12;
+    rest_is_isotropic, "", "in a ball about lamp and eye that move along: D = 1, L = ρI/πr²; under a sky: L = L′", "isotropy of space", 1e-11;
     turning_everything_changes_nothing, "", "scene and camera turned together: the same picture", "isotropy of space", 1e-10;
     turning_glass_and_skies_changes_nothing, "", "the same with glass, panoramas, stars and clocks", "isotropy of space", 1e-9;
     lamp_and_pinhole_may_be_exchanged, "", "time reversed: H(λ)/I(Dλ) = D⁸ H(Dλ)/I(λ), D from lamp to pinhole", "Helmholtz reciprocity; k·u", 1e-11;
@@ -127,6 +131,31 @@ fn lamps_add() -> f64 {
         let sum = |p: &[DVec3], q: &[DVec3]| p.iter().zip(q).map(|(p, q)| p + q).collect::<Vec<_>>();
         // What shines by itself is on both sides twice.
         differ(&mut worst, &sum(&with(a), &with(b)), &sum(&with(&stage.lamps), &with(&[])));
+    }
+    worst.0
+}
+
+/// Lamp, eye, a ball around them and a sky, all at rest beside each other, at any velocity in the lab.
+fn rest_is_isotropic() -> f64 {
+    let (mut worst, mut dice) = (Worst::default(), Dice(16));
+    for b in [0.0, 0.3, 0.8, 0.99] {
+        let (moves, t, place) = (dice.velocity(b), dice.between(-5.0, 5.0), dice.in_cube() * 5.0);
+        let shell = Body::of(ball(2.0, DVec3::ZERO), diffuse(0.7)).at(t, place).moving(moves);
+        let lamp = Lantern::at(t, place, flat(3.0)).moving(moves);
+        let eye = Eye::at(t, place).moving(moves);
+        let inside = Stage::of([shell]).lit_by([lamp]).seen_by(&eye);
+        let sky = Heaven::uniform(black_body(5000.0)).moving(moves);
+        let outside = Stage::of([]).under(sky).seen_by(&eye);
+        for _ in 0..100 {
+            let ray = eye.sight(dice.direction());
+            worst.part(first(&inside, &ray).doppler.factor(), 1.0);
+            for value in look(&inside, &ray).radiance {
+                worst.part(value, 0.7 * 3.0 / (PI * 4.0));
+            }
+            for (nm, value) in Wavelengths::<64>::new().nm.iter().zip(look(&outside, &ray).radiance) {
+                worst.part(value, planck(*nm, 5000.0));
+            }
+        }
     }
     worst.0
 }

@@ -21,7 +21,9 @@ fn rounded(error: f64) -> String {
 
 fn row(law: &Law) -> String {
     let (error, bound) = (rounded(*law.error), law.bound);
-    format!("| {} | {} | {} | {} | {error} | {bound:e} |\n", law.sentence(), law.number, law.form, law.source)
+    // A bar would end the cell.
+    let form = law.form.replace('|', "\\|");
+    format!("| {} | {} | {form} | {} | {error} | {bound:e} |\n", law.sentence(), law.number, law.source)
 }
 
 const HEAD: &str = "\
