@@ -40,11 +40,18 @@ impl Reconstruction {
     ///
     /// A Hammersley set, spread by the filter, with its mean at the centre; one sample is the centre itself.
     pub fn offsets(self, samples: u32) -> Vec<DVec2> {
+        self.offsets_moved(samples, (0.0, 0.0))
+    }
+
+    /// The same, each moved to and fro within the part of the pixel that it stands for, by `moved` (-1/2 to 1/2) of its width and
+    /// its height.
+    pub fn offsets_moved(self, samples: u32, moved: (f64, f64)) -> Vec<DVec2> {
         let half = 0.5 / f64::from(samples);
         let point = |i: u32| {
             let radical_inverse = f64::from(i.reverse_bits()) / 4_294_967_296.0;
-            let across = f64::from(i) / f64::from(samples) + half;
-            let down = (radical_inverse + half).min(1.0 - half);
+            let (side, other) = (f64::from(i & 1) - 0.5, f64::from(i >> 1 & 1) - 0.5);
+            let across = f64::from(i) / f64::from(samples) + half + 4.0 * half * side * moved.0;
+            let down = (radical_inverse + half).min(1.0 - half) + 4.0 * half * other * moved.1;
             DVec2::new(self.quantile(across), self.quantile(down))
         };
         let mut offsets: Vec<DVec2> = (0..samples).map(point).collect();

@@ -163,6 +163,16 @@ fn film_in_which_nothing_moves_is_one_picture() {
     };
     assert_eq!(at(plan.exposures[0].tau), at(plan.exposures[2].tau));
 
+    // Slower than a part 1e-12 of light, and yet 1 cm further at the film's end.
+    let slow = DAYLIGHT
+        .replace("light_speed: 1 m/s\n", "")
+        .replace("at: 0 1.05 0 m }", "at: 0 1.05 0 m, velocity: 0.0001 0 0 m/s }")
+        .replace("to: 2 s", "to: 100 s")
+        .replace("MATERIAL", MIRROR)
+        .replace("LAMP", "D65")
+        .replace("OBSERVER", "0 0 0 m/s");
+    assert!(!manifested(&slow).2.still);
+
     let blinking = "{ blinking: { period: 2 s, on: { diffuse: 0.9 }, off: { diffuse: 0.02 } } }";
     for (material, observer) in [(blinking, "0 0 0 m/s"), (MIRROR, "0 0 0.2 m/s")] {
         let (_, _, plan) = daylight(material, "D65", observer);

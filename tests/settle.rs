@@ -81,6 +81,35 @@ fn tolerance_costs_less_than_the_even_setting_that_is_as_good() {
     assert!(f64::from(as_good) > 2.0 * settled.samples, "{as_good} samples against {}", settled.samples);
 }
 
+/// A shining thing much thinner than a pixel, seen by few samples of few pixels.
+const WIRES: &str = "
+light_speed: 1 m/s
+assets: { wire: { cylinder: { radius: 3 mm, height: 4 m } } }
+bodies:
+  - { asset: wire, at: -0.51 0 0 m, rotation: 3 deg about 0 0 1, material: { emission: { luminance: 1000 cd/m2 } } }
+  - { asset: wire, at: 0.53 0 0 m, rotation: -4 deg about 0 0 1, material: { emission: { luminance: 1000 cd/m2 } } }
+surroundings: { uniform: { luminance: 20 cd/m2 } }
+observer: { at: 0 0 6 m, look_at: 0 0 0 m, field_of_view: 40 deg }
+exposures: { at: 0 s }
+picture: { size: 64 36, white: 100 cd/m2 }
+output: out
+";
+
+#[test]
+fn what_few_samples_met_is_not_forgotten() {
+    let (_, scene, plan) = manifested(WIRES);
+    let view = scene.observer.view(0.0, 64, 36);
+    let development = Development { white: 100.0 };
+    let fine = Sampling { samples: 4096, ..plan.sampling };
+    let reference = expose_lit(&scene.lit(), &view, &fine);
+    for tolerance in [10.0, 4.0, 1.0] {
+        let settled = expose_settled(&scene.lit(), &view, &plan.sampling, &development, tolerance);
+        let real = Deviation::between(&settled.negative, &reference, &development).shown;
+        println!("{tolerance}: {real:?}, by estimate {:?}, {} samples", settled.error, settled.samples);
+        assert!(real.p99 <= 1.1 * settled.error.p99, "{tolerance}: {real:?}, not {:?}", settled.error);
+    }
+}
+
 #[test]
 fn settled_picture_is_the_same_on_any_number_of_threads() {
     let (_, scene, plan) = manifested(DISK);
@@ -145,6 +174,19 @@ fn ladder_has_the_default_and_names_the_cheapest_that_is_fine() {
     let tags = |open: &str| drawing.matches(open).count();
     assert_eq!(tags("<svg"), tags("</svg>"));
     assert_eq!(tags("<text"), tags("</text>"));
+}
+
+#[test]
+fn default_of_the_ladder_is_what_render_would_do() {
+    let (_, scene, plan) = manifested(&DISK.replace("white: 100", "tolerance: 2, white: 100"));
+    let settings = chart::ladder(&scene, &plan);
+    let default: Vec<_> = settings.iter().filter(|setting| setting.default).collect();
+    assert_eq!(default.len(), 1);
+    assert_eq!(default[0].method, Method::Tolerance(2.0));
+    assert!(
+        settings.iter().any(|setting| setting.method == Method::Planned && setting.sampling.samples == 4)
+    );
+    assert_eq!(chart::reference(&scene, &plan, 8).method, Method::Planned);
 }
 
 #[test]

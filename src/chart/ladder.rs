@@ -44,6 +44,7 @@ pub fn reference(scene: &Scene, plan: &Plan, samples: u32) -> Setting {
     Setting {
         series: "reference",
         label: format!("{samples} samples, {REFERENCE_WAVELENGTHS} wavelengths"),
+        method: Method::Planned,
         sampling: Sampling { samples, wavelengths: REFERENCE_WAVELENGTHS, ..plan.sampling },
         ..default(scene, plan)
     }
@@ -52,13 +53,17 @@ pub fn reference(scene: &Scene, plan: &Plan, samples: u32) -> Setting {
 fn default(scene: &Scene, plan: &Plan) -> Setting {
     let lit = scene.lit();
     let Sampling { samples, wavelengths, .. } = plan.sampling;
+    let (method, label) = match plan.tolerance {
+        Some(tolerance) => (Method::Tolerance(tolerance), format!("tolerance {tolerance}")),
+        None => (Method::Planned, format!("{samples} samples, {wavelengths} wavelengths")),
+    };
     Setting {
         series: "as the manifest has it",
-        label: format!("{samples} samples, {wavelengths} wavelengths"),
+        label,
         sampling: plan.sampling,
         depth: lit.depth,
         footprints: lit.footprints,
-        method: Method::Planned,
+        method,
         default: true,
     }
 }
@@ -67,10 +72,16 @@ fn default(scene: &Scene, plan: &Plan) -> Setting {
 pub fn ladder(scene: &Scene, plan: &Plan) -> Vec<Setting> {
     let default = default(scene, plan);
     let planned = plan.sampling;
-    let other =
-        |series: &'static str, label: String| Setting { series, label, default: false, ..default.clone() };
+    let other = |series: &'static str, label: String| Setting {
+        series,
+        label,
+        default: false,
+        method: Method::Planned,
+        ..default.clone()
+    };
     let mut all = vec![default.clone()];
-    for samples in [1, 2, 4, 8, 16, 32, 64].into_iter().filter(|samples| *samples != planned.samples) {
+    let asked = |what: bool| what && default.method == Method::Planned;
+    for samples in [1, 2, 4, 8, 16, 32, 64].into_iter().filter(|n| !asked(*n == planned.samples)) {
         let sampling = Sampling { samples, ..planned };
         all.push(Setting { sampling, ..other("samples", format!("{samples}")) });
     }
@@ -98,7 +109,7 @@ pub fn ladder(scene: &Scene, plan: &Plan) -> Vec<Setting> {
     if left_out {
         all.push(everything);
     }
-    for tolerance in TOLERANCES {
+    for tolerance in TOLERANCES.into_iter().filter(|of| default.method != Method::Tolerance(*of)) {
         all.push(Setting {
             method: Method::Tolerance(tolerance),
             ..other("tolerance", format!("{tolerance}"))

@@ -9,7 +9,6 @@ use crate::output::write_whole;
 use crate::render::white;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -23,17 +22,17 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
     /// How often each setting is timed
-    #[arg(long, value_name = "N", default_value = "5")]
-    runs: NonZeroUsize,
+    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    runs: u32,
     /// Samples per pixel of the reference
-    #[arg(long, value_name = "N", default_value = "512")]
-    reference: NonZeroU32,
+    #[arg(long, value_name = "N", default_value = "512", value_parser = clap::value_parser!(u32).range(2..=65536))]
+    reference: u32,
     /// The folder for `chart.svg` and `chart.csv`, instead of the manifest's
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
     /// Threads to use (all unless said)
-    #[arg(long, value_name = "N")]
-    pub(super) threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=super::MOST_THREADS))]
+    pub(super) threads: Option<u16>,
     #[command(flatten)]
     changes: Changes,
 }
@@ -56,8 +55,12 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
         let rows = (u64::from(height) * u64::from(WIDEST) / u64::from(width)).max(1) as u32;
         plan.sampling = Sampling { width: WIDEST, height: rows, ..plan.sampling };
     }
+    let folder = args.out.as_ref().unwrap_or(&plan.folder);
+    // A folder that cannot be written is found before all the work, not after it.
+    let trial = folder.join("chart.csv");
+    write(&trial, "")?;
     let subject = Subject { scene: &scene, tau: exposure.tau, development };
-    let samples = args.reference.get();
+    let samples = args.reference;
     let (reference, ..) = subject.expose(&chart::reference(&scene, &plan, samples));
     let (half, ..) = subject.expose(&chart::reference(&scene, &plan, (samples / 2).max(1)));
     let doubt = Deviation::between(&half, &reference, &development);
@@ -67,15 +70,14 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     gauge.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let settings = chart::ladder(&scene, &plan);
     let tell = |part: f64| gauge.set_position((part * 1000.0) as u64);
-    let measured = subject.measure(settings, &reference, args.runs.get(), tell);
+    let measured = subject.measure(settings, &reference, args.runs as usize, tell);
     gauge.finish_and_clear();
 
-    let folder = args.out.as_ref().unwrap_or(&plan.folder);
     let name = args.manifest.file_stem().unwrap_or_default().to_string_lossy();
     let Sampling { width, height, .. } = plan.sampling;
     let title = format!("{name}, exposure {number}, {width} x {height}: what it costs and what it gives");
     write(&folder.join("chart.svg"), &chart::svg(&title, &measured))?;
-    write(&folder.join("chart.csv"), &chart::csv(&measured))?;
+    write(&trial, &chart::csv(&measured))?;
     print(&summary(&measured, (samples, &doubt), folder))
 }
 

@@ -115,7 +115,11 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
             "light",
             format!(
                 "{} wavelengths{}",
-                sampling.wavelengths,
+                if plan.tolerance.is_some() && sampling.wavelengths > 3 {
+                    "16 to 64".to_owned()
+                } else {
+                    sampling.wavelengths.to_string()
+                },
                 if lines { ", and spectral lines carried exactly" } else { "" }
             ),
         ),

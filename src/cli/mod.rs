@@ -14,7 +14,6 @@ use crate::render;
 use crate::scene::{Scene, compose};
 use clap::{Args, Parser, Subcommand};
 use std::io::{IsTerminal, Write};
-use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -49,6 +48,9 @@ enum Command {
     Inspect(inspect::InspectArgs),
 }
 
+/// Each thread has a stack of its own.
+const MOST_THREADS: i64 = 1024;
+
 #[derive(Debug, Args)]
 struct RenderArgs {
     /// The manifests (YAML)
@@ -67,10 +69,10 @@ struct RenderArgs {
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
     /// Samples per pixel
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<String>,
     /// How far 99 of 100 pixels may be from the converged picture, in CIEDE2000 (1 is just noticeable), instead of samples
-    #[arg(long, value_name = "CIEDE2000", conflicts_with = "samples")]
+    #[arg(long, value_name = "CIEDE2000", conflicts_with = "samples", allow_negative_numbers = true)]
     tolerance: Option<String>,
     /// The folder for the pictures, instead of the manifest's
     #[arg(long, value_name = "FOLDER")]
@@ -79,8 +81,8 @@ struct RenderArgs {
     #[arg(long)]
     no_video: bool,
     /// Threads to use (all unless said); the pictures are the same
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    threads: Option<u16>,
     #[command(flatten)]
     changes: Changes,
 }
@@ -196,11 +198,11 @@ fn size_change(size: Option<&str>) -> Result<Option<(String, String)>, Error> {
 }
 
 /// The threads that trace.
-fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Error> {
+fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Error> {
     // Mirrors and glass are followed by recursion, at most `depth` and a hundred veils deep.
     let mut pool = rayon::ThreadPoolBuilder::new().stack_size(16 << 20);
     if let Some(threads) = threads {
-        pool = pool.num_threads(threads.get());
+        pool = pool.num_threads(usize::from(threads));
     }
     pool.build().map_err(|error| {
         Error::fault(Place::Command, format!("the threads could not be started: {error}"), "--threads 2")
@@ -231,6 +233,9 @@ fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> R
     let (_, scene, mut plan) = prepare(path, changes, args.exposure.is_none())?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
+    }
+    if args.samples.is_some() {
+        plan.tolerance = None; // Asked for by hand, whatever the manifest has.
     }
     let chosen = chosen(args, plan.exposures.len())?;
     let mut progress = progress::Progress::start(&plan, chosen.len());

@@ -19,6 +19,7 @@ pub(super) struct Progress {
     pictures: usize,
     // The least settled so far.
     worst: Option<Settling>,
+    tolerance: f64,
 }
 
 fn worse(one: Option<Settling>, other: Settling) -> Settling {
@@ -41,7 +42,8 @@ impl Progress {
         if let Some(gauge) = &gauge {
             gauge.enable_steady_tick(Duration::from_millis(250));
         }
-        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures, worst: None }
+        let tolerance = plan.tolerance.unwrap_or(f64::INFINITY);
+        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures, worst: None, tolerance }
     }
 
     /// Shows a step.
@@ -70,9 +72,14 @@ impl Progress {
             let folder = path.parent().unwrap_or(path).display();
             self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
             if let Some(Settling { error, samples }) = self.worst {
+                let reached = if error.p99 > self.tolerance {
+                    format!("; {} was not reached: some pixels need more than they may have", self.tolerance)
+                } else {
+                    String::new()
+                };
                 self.say(&format!(
-                    "99 of 100 pixels are within CIEDE2000 {:.2} of the converged picture (mean {:.2}), by estimate; up to {samples:.0} samples \
-                     for each pixel",
+                    "99 of 100 pixels are within CIEDE2000 {:.2} of the converged picture (mean {:.2}), by estimate; {samples:.0} samples \
+                     for each pixel in the mean{reached}",
                     error.p99, error.mean
                 ));
             }

@@ -17,6 +17,8 @@ use std::sync::OnceLock;
 /// Samples of the first pass, and of the second where the first leaves doubts.
 const FIRST: u32 = 4;
 const SECOND: u32 = 16;
+/// How samples are moved within the share of the pixel that each stands for, in parts of it.
+const MOVES: [(f64, f64); 4] = [(-0.375, 0.125), (0.125, 0.375), (0.375, -0.125), (-0.125, -0.375)];
 /// Most samples of a pixel.
 const MOST: u32 = 1024;
 /// The error of the mean of n samples is about `SPREAD σ n^-3/4` where an edge crosses the pixel and they are spread evenly.
@@ -68,12 +70,16 @@ impl Uncertainty {
 /// A pixel as far as it is known.
 #[derive(Debug, Clone, Copy)]
 struct Pixel {
+    // The mean of the samples at its number of wavelengths, and how many those are.
     xyz: DVec3,
-    // Standard deviation of its samples, XYZ.
+    alike: u32,
+    // Standard deviation of all its samples, XYZ, and their mean.
     spread: DVec3,
+    mean: DVec3,
     // Estimated errors by the samples and by the wavelengths.
     unsettled: f64,
     unresolved: f64,
+    // Those of the last pass.
     samples: u32,
     wavelengths: u32,
     // All samples that were taken of it.
@@ -83,6 +89,24 @@ struct Pixel {
 impl Pixel {
     fn error(&self) -> f64 {
         SAFETY * (self.unsettled + self.unresolved)
+    }
+
+    /// Measured again: no sample is forgotten, so that what few of them met still counts.
+    fn again(&self, before: &Self, development: &Development) -> Self {
+        let taken = before.taken + self.taken;
+        let part = f64::from(self.taken) / f64::from(taken);
+        let mean = before.mean.lerp(self.mean, part);
+        let squares = |of: &Self| of.spread * of.spread + of.mean * of.mean;
+        let variance = (squares(before).lerp(squares(self), part) - mean * mean).max(DVec3::ZERO);
+        let spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
+        let (xyz, alike) = if before.wavelengths == self.wavelengths {
+            let alike = before.alike + self.alike;
+            (before.xyz.lerp(self.xyz, f64::from(self.alike) / f64::from(alike)), alike)
+        } else {
+            (self.xyz, self.alike)
+        };
+        let unsettled = self.unsettled.max(swing(development, xyz, spread, self.samples));
+        Self { xyz, alike, spread, mean, unsettled, taken, ..*self }
     }
 
     /// As many wavelengths as it needs: the error of a rule falls with the square of their number.
@@ -117,18 +141,21 @@ pub fn expose_settled(
 ) -> Settled {
     let size = (sampling.width as usize, sampling.height as usize);
     let rules = Rules::default();
-    let passes: Vec<OnceLock<Pass<'_>>> = (0..=MOST.ilog2()).map(|_| OnceLock::new()).collect();
-    let pass = |samples: u32| Pass {
+    let passes: Vec<OnceLock<Pass<'_>>> = (0..4 * (1 + MOST.ilog2())).map(|_| OnceLock::new()).collect();
+    let pass = |samples: u32, variant: usize| Pass {
         lit,
         view,
         development,
         rules: &rules,
-        offsets: sampling.reconstruction.offsets(samples),
+        offsets: sampling.reconstruction.offsets_moved(samples, MOVES[variant]),
         phases: phases(samples),
     };
     let measured = |number: usize, samples: u32, wavelengths: u32| {
-        let place = (number % size.0, number / size.0);
-        passes[samples.ilog2() as usize].get_or_init(|| pass(samples)).measured(place, wavelengths)
+        let (column, row) = (number % size.0, number / size.0);
+        // Neighbours have different ones: what is thinner than a pixel then slips through few pixels, not through a row of them.
+        let variant = (column + 3 * row + column / 4 + row / 4) % 4;
+        let pass = passes[4 * samples.ilog2() as usize + variant].get_or_init(|| pass(samples, variant));
+        pass.measured((column, row), wavelengths)
     };
     let tolerance = tolerance / SAFETY;
     let wavelengths = if sampling.wavelengths == 3 { 3 } else { 16 };
@@ -137,15 +164,15 @@ pub fn expose_settled(
     let mut open: Vec<(usize, u32)> = (0..pixels.len())
         .into_par_iter()
         .filter(|number| {
-            doubts(&pixels, size, *number, 1.0, development) + pixels[*number].unresolved > tolerance
+            doubts(&pixels, size, *number, (2, 1.0), development) + pixels[*number].unresolved > tolerance
         })
         .map(|number| (number, SECOND))
         .collect();
     while !open.is_empty() {
         let again = |(number, samples): &(usize, u32)| {
             let before = &pixels[*number];
-            let pixel = measured(*number, *samples, before.wavelengths_for(RESOLVED * tolerance));
-            Pixel { taken: pixel.taken + before.taken, ..pixel }
+            let finer = measured(*number, *samples, before.wavelengths_for(RESOLVED * tolerance));
+            finer.again(before, development)
         };
         let finer: Vec<Pixel> = open.par_iter().map(again).collect();
         for ((number, _), pixel) in open.iter().zip(finer) {
@@ -153,7 +180,7 @@ pub fn expose_settled(
         }
         let more = |(number, _): (usize, u32)| {
             let pixel = &pixels[number];
-            let samples = pixel.more(doubts(&pixels, size, number, DOUBT, development), tolerance)?;
+            let samples = pixel.more(doubts(&pixels, size, number, (1, DOUBT), development), tolerance)?;
             Some((number, samples))
         };
         open = open.into_par_iter().filter_map(more).collect();
@@ -173,18 +200,18 @@ pub fn expose_settled(
     }
 }
 
-/// How far a pixel may be from settled: by its own samples, or by a part of what its neighbours' would do to it. (A few
+/// How far a pixel may be from settled: by its own samples, or by a part of what those of its neighbours, up to `reach` pixels away, would do to it. (A few
 /// samples may all miss an edge; and beside something very bright a little of it counts.)
 fn doubts(
     pixels: &[Pixel],
     (width, height): (usize, usize),
     number: usize,
-    part: f64,
+    (reach, part): (usize, f64),
     development: &Development,
 ) -> f64 {
     let (column, row) = (number % width, number / width);
-    let rows = row.saturating_sub(1)..(row + 2).min(height);
-    let columns = column.saturating_sub(1)..(column + 2).min(width);
+    let rows = row.saturating_sub(reach)..(row + reach + 1).min(height);
+    let columns = column.saturating_sub(reach)..(column + reach + 1).min(width);
     let around = rows.flat_map(|r| columns.clone().map(move |c| r * width + c));
     let own = &pixels[number];
     let spread = around.map(|i| pixels[i].spread).fold(DVec3::ZERO, DVec3::max);
@@ -274,6 +301,7 @@ impl Pass<'_> {
         } else {
             0.0
         };
-        Pixel { xyz, spread, unsettled, unresolved, samples, wavelengths: N as u32, taken: samples }
+        let (mean, alike, taken) = (xyz, samples, samples);
+        Pixel { xyz, alike, spread, mean, unsettled, unresolved, samples, wavelengths: N as u32, taken }
     }
 }

@@ -7,10 +7,12 @@
 use super::Exposure;
 use crate::error::Report;
 use crate::lamp::Beam;
-use crate::manifest::{self, Manifest};
-use crate::scene::Scene;
-use crate::spacetime::{Course, Event, FourVector, Velocity};
-use crate::world::{Placed, RestFrame};
+use crate::manifest::{self, LightSource, Manifest};
+use crate::scene::{Scene, placement};
+use crate::spacetime::{Course, Event, FourVector, Lab, Poincare, Rest, Velocity};
+use crate::spectrum::Source;
+use crate::surface::{Scatter, Surface};
+use crate::world::Form;
 
 /// How many roundings there are at most between what is written and a place in a rest frame.    Law: tests
 /// `edges::search::*`.
@@ -37,6 +39,9 @@ pub(super) fn check(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], 
     }
     check_glass(manifest, scene, report);
     check_bodies(manifest, scene, &ends, report);
+    check_lamps(manifest, scene, &ends, report);
+    check_clocks(manifest, scene, &ends, report);
+    check_spectra(manifest, scene, report);
 }
 
 /// Refuses an observer who is beyond what numbers can follow.
@@ -72,19 +77,36 @@ fn check_speed(
 }
 
 fn check_glass(manifest: &Manifest, scene: &Scene, report: &mut Report) {
-    for body in &manifest.bodies {
-        let velocity = body.placement.velocity;
-        let glass = scene.media.iter().any(|medium| medium.rest_from_lab.velocity() == velocity);
-        if glass && velocity.gamma() > GREATEST_GAMMA_OF_GLASS {
-            let what = format!("glass at a Lorentz factor of {:.1e}", velocity.gamma());
+    for (number, body) in manifest.bodies.iter().enumerate() {
+        let gamma = body.placement.velocity.gamma();
+        if gamma > GREATEST_GAMMA_OF_GLASS && is_of_glass(scene, number) {
+            let what = format!("glass at a Lorentz factor of {gamma:.1e}");
             report.fault(body.place.clone(), what, "1e5 at most, or describe all from where the glass rests");
         }
     }
 }
 
+fn is_of_glass(scene: &Scene, body: usize) -> bool {
+    let placed = scene.world.frames.iter().flat_map(|rest| &rest.placed);
+    let own = placed.filter(|placed| placed.body as usize == body).flat_map(|placed| {
+        let last = match &placed.form {
+            Form::Mesh(triangles) => triangles.mesh.parts.iter().map(|part| part.material).max(),
+            Form::Solid(_) => None,
+        };
+        placed.surfaces..=placed.surfaces + last.unwrap_or(0)
+    });
+    let glass = |surface: &Surface| matches!(&surface.scatter, Scatter::Glass(glass) if !glass.thin);
+    own.filter_map(|number| scene.surfaces.get(number as usize)).flat_map(Surface::all).any(glass)
+}
+
 /// The sum of a difference's parts, metres.
 fn size(difference: FourVector) -> f64 {
     difference.t.abs() + difference.x.abs().max_element()
+}
+
+/// The same as far as it enters a place in a rest frame, which is γ(x - βt): time counts only for what moves.
+fn size_of_place(difference: FourVector, velocity: Velocity) -> f64 {
+    velocity.gamma() * difference.x.abs().max_element() + velocity.proper().length() * difference.t.abs()
 }
 
 /// How uncertain a body is, metres.
@@ -96,14 +118,17 @@ struct Uncertain {
     way: f64,
 }
 
-fn uncertain(rest: &RestFrame, placed: &Placed, observer: Event) -> Uncertain {
-    let gamma = rest.rest_from_lab.boost().velocity().gamma();
-    let origin = rest.rest_from_lab.origin();
-    let apart = size(observer - origin);
-    let known = size(observer - Event::ORIGIN).max(size(origin - Event::ORIGIN));
+/// `reach`: how large its coordinates are in its rest frame.
+fn uncertain(rest_from_lab: &Poincare<Rest, Lab>, reach: f64, observer: Event) -> Uncertain {
+    let velocity = rest_from_lab.boost().velocity();
+    let gamma = velocity.gamma();
+    let origin = rest_from_lab.origin();
+    let sized = |difference: FourVector| size_of_place(difference, velocity);
+    let apart = sized(observer - origin);
+    let known = sized(observer - Event::ORIGIN).max(sized(origin - Event::ORIGIN));
     let unit = ROUNDINGS * f64::EPSILON;
-    let place = unit * (gamma * (apart + 0.25 * known) + placed.reach());
-    Uncertain { place, way: unit * gamma * gamma * apart }
+    let place = unit * (apart + 0.25 * known + reach);
+    Uncertain { place, way: unit * gamma * gamma * size(observer - origin) }
 }
 
 fn check_bodies(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut Report) {
@@ -113,7 +138,7 @@ fn check_bodies(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut
         for placed in &rest.placed {
             let Some(worst) = worst.get_mut(placed.body as usize) else { continue };
             for observer in ends {
-                let found = uncertain(rest, placed, *observer);
+                let found = uncertain(&rest.rest_from_lab, placed.reach(), *observer);
                 let part = found.place / placed.extent();
                 if part > worst.0 {
                     *worst = (part, worst.1, Uncertain { place: found.place, ..worst.2 });
@@ -153,6 +178,76 @@ fn check_bodies(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut
                 "let its lamps move with it, or let it glow; or make it slower",
             );
         }
+    }
+}
+
+/// Lamps of the manifest: those of files rest with bodies, which are looked at above.
+fn check_lamps(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut Report) {
+    let placed = scene.world.frames.iter().flat_map(|rest| &rest.placed);
+    let smallest = placed.map(|placed| placed.extent()).fold(f64::INFINITY, f64::min);
+    for light in manifest.lights.iter().filter(|light| !matches!(light.source, LightSource::Sun(_))) {
+        let velocity = light.placement.velocity;
+        let rest_from_lab = placement(&light.placement).rest_from_lab();
+        let alone = scene.world.frames.iter().all(|rest| rest.rest_from_lab.boost().velocity() == velocity);
+        let error = |observer: &Event| {
+            let found = uncertain(&rest_from_lab, 0.0, *observer);
+            if alone { found.place } else { found.place.max(found.way * velocity.beta().length()) }
+        };
+        let worst = ends.iter().map(error).fold(0.0, f64::max);
+        if !(worst <= 0.1 * smallest) {
+            let what = format!(
+                "at γ = {:.3e}, and as far away in place and time as this lamp is, its place is known to {worst:.1e} m, and the \
+                 smallest body is {smallest:.1e} m",
+                velocity.gamma()
+            );
+            let hint = "say where it is at a time nearer to the pictures' (`at` and `at_time`)";
+            let say = if worst <= smallest { Report::warn } else { Report::fault };
+            say(report, light.place.clone(), what, hint);
+        }
+    }
+}
+
+/// What blinks faster than its clock can be read.
+fn check_clocks(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut Report) {
+    let of_surfaces =
+        scene.surfaces.iter().flat_map(Surface::all).filter_map(|surface| match &surface.scatter {
+            Scatter::Mixed(parts) => Some(parts.iter().map(|(course, _)| course)),
+            _ => None,
+        });
+    let of_lamps = scene.lamps.iter().map(|lamp| lamp.light.iter().map(|(course, _)| course));
+    let frames = scene.world.frames.iter().map(|rest| &rest.rest_from_lab);
+    let frames = frames.chain(scene.lamps.iter().map(|lamp| &lamp.rest_from_lab));
+    let way = |frame: &Poincare<Rest, Lab>| {
+        ends.iter().map(|observer| uncertain(frame, 0.0, *observer).way).fold(0.0, f64::max)
+    };
+    let known = frames.map(way).fold(0.0, f64::max);
+    for course in of_surfaces.flatten().chain(of_lamps.flatten()) {
+        let crate::course::Course::Blinking { period, start, .. } = course else { continue };
+        let known = known.max(ROUNDINGS * f64::EPSILON * start.abs());
+        if known > 0.01 * period {
+            let seconds = 1.0 / manifest.light_speed;
+            let what = format!(
+                "something blinks with a period of {:.1e} s, and its clock can be read to {:.1e} s only",
+                period * seconds,
+                known * seconds
+            );
+            let hint = "choose a longer period, or times and places nearer to zero";
+            return report.warn(manifest.exposures.place.clone(), what, hint);
+        }
+    }
+}
+
+/// What the wavelengths may miss: peaks of measured spectra that are narrower than they lie apart.
+fn check_spectra(manifest: &Manifest, scene: &Scene, report: &mut Report) {
+    let finest = if manifest.picture.tolerance.is_some() { 64 } else { manifest.picture.wavelengths };
+    let apart = 300.0 / f64::from(finest);
+    let narrowest = scene.sources().filter_map(Source::narrowest_peak_nm).fold(f64::INFINITY, f64::min);
+    if narrowest < apart {
+        let what = format!(
+            "a spectrum that shines has a peak {narrowest:.1} nm wide, which wavelengths {apart:.1} nm apart may miss"
+        );
+        let hint = "write the peak as a line, as in `sum: [ ..., { line: { centre: 546 nm, width: 3 nm } } ]`, or take `wavelengths: 64`";
+        report.warn(manifest.picture.place.clone(), what, hint);
     }
 }
 

@@ -45,8 +45,9 @@ const fn no(why: &'static str) -> Because {
 /// Largest difference of four-velocities that counts as rest: shifts of 1e-12 are rounding.
 const AT_REST: f64 = 1e-12;
 
-/// Whether nothing moves relative to the observer that shines, is seen or throws light back; the sky counts if it is to.
-fn at_rest(scene: &Scene, sky: bool) -> bool {
+/// Whether nothing moves relative to the observer, by more than `most`, that shines, is seen or throws light back; the sky
+/// counts if it is to.
+fn at_rest(scene: &Scene, sky: bool, most: f64) -> bool {
     let observer = &scene.observer.worldline;
     if !matches!(observer.course(), Course::Inertial | Course::Ring { .. }) {
         return false;
@@ -54,7 +55,7 @@ fn at_rest(scene: &Scene, sky: bool) -> bool {
     let seer = observer.at(0.0).velocity();
     let rests = |velocity: Velocity| {
         let FourVector { t, x, .. }: FourVector = velocity.four();
-        (t - seer.t).abs().max((x - seer.x).abs().max_element()) <= AT_REST
+        (t - seer.t).abs().max((x - seer.x).abs().max_element()) <= most
     };
     let bodies = scene.world.frames.iter().map(|rest| rest.rest_from_lab.boost().velocity());
     let lamps = scene.lamps.iter().map(|lamp| lamp.rest_from_lab.boost().velocity());
@@ -67,7 +68,7 @@ fn at_rest(scene: &Scene, sky: bool) -> bool {
 /// The weights make XYZ of daylight through each sRGB primary exact for any number of wavelengths, three included. So they suffice where all
 /// light is daylight through at most one colour, and no wavelength is shifted.
 pub fn three_wavelengths(scene: &Scene) -> Because {
-    if scene.effects.doppler && !at_rest(scene, true) {
+    if scene.effects.doppler && !at_rest(scene, true, AT_REST) {
         return no("light is shifted between the frames");
     }
     if !scene.lines.is_empty() {
@@ -92,12 +93,14 @@ pub fn three_wavelengths(scene: &Scene) -> Because {
         SkyPart::Panorama(_) => Tone::Color,
         SkyPart::Stars(_) => Tone::Spectrum,
     });
-    let most = glow.chain(sky).chain([lit.times(scattered)]).max().unwrap_or(Tone::Grey);
-    match most {
+    let single = glow.chain(sky).chain([lit, scattered]).max().unwrap_or(Tone::Grey);
+    match single.max(lit.times(scattered)) {
         Tone::Grey | Tone::Color => {
             yes("all light is daylight through one colour at most, and none is shifted")
         }
-        Tone::Spectrum if lit == Tone::Color => no("coloured light falls on colours, and colours multiply"),
+        Tone::Spectrum if single < Tone::Spectrum => {
+            no("coloured light falls on colours, and colours multiply")
+        }
         Tone::Spectrum => no("there are spectra that are no colour of daylight"),
     }
 }
@@ -136,7 +139,8 @@ pub fn still(scene: &Scene) -> Because {
     if !matches!(scene.observer.worldline.course(), Course::Inertial) {
         return no("the observer's motion or place changes");
     }
-    if !at_rest(scene, false) {
+    // Exactly: what is as slow as can be gets somewhere in time.
+    if !at_rest(scene, false, 0.0) {
         return no("something moves relative to the observer");
     }
     let lamps = scene.lamps.iter().flat_map(|lamp| &lamp.light).all(|(course, _)| steady(course));
@@ -167,11 +171,11 @@ pub fn parts(scene: &Scene, plan: &Plan) -> Vec<Part> {
     } else {
         Part::new("recursion", "none", "nothing mirrors and nothing refracts")
     });
-    parts.push(Part::new(
-        "spectra",
-        format!("{} wavelengths", plan.sampling.wavelengths),
-        three_wavelengths(scene).why,
-    ));
+    let wavelengths = match (plan.sampling.wavelengths, plan.tolerance) {
+        (3, _) | (_, None) => format!("{} wavelengths", plan.sampling.wavelengths),
+        (_, Some(_)) => "16 to 64 wavelengths, as each pixel needs".to_owned(),
+    };
+    parts.push(Part::new("spectra", wavelengths, three_wavelengths(scene).why));
     parts.push(lines(scene));
     let dispersing = scene.media.iter().any(|medium| medium.index.disperses());
     parts.push(if dispersing {

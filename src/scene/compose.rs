@@ -81,7 +81,7 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
     }
 }
 
-pub(super) fn placement(written: &manifest::Placement) -> Placement {
+pub(crate) fn placement(written: &manifest::Placement) -> Placement {
     Placement { origin: Event::new(written.at_time, written.at), velocity: written.velocity }
 }
 
@@ -107,8 +107,7 @@ impl Gathered {
         report: &mut Report,
     ) {
         let placement = placement(&body.placement);
-        let rest_from_asset =
-            DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+        let Some(rest_from_asset) = rest_from_asset(body, report) else { return };
         let first_medium = self.workshop.media.len();
         let first_surface = self.surfaces.len() as u32;
         let surfaces = surfaces(body, &model.asset, &mut self.workshop, report);
@@ -158,8 +157,7 @@ impl Gathered {
     ) {
         let Some(solid) = solids::solid(solid) else { return };
         let placement = placement(&body.placement);
-        let rest_from_solid =
-            DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+        let Some(rest_from_solid) = rest_from_asset(body, report) else { return };
         let first_medium = self.workshop.media.len();
         let first_surface = self.surfaces.len() as u32;
         let owner = Owner { place: &body.place, rest_from_lab: placement.rest_from_lab().boost() };
@@ -180,6 +178,21 @@ impl Gathered {
         self.ambient.extend(own);
         self.surfaces.extend(surfaces.into_iter().map(|surface| surface.in_ambient(ambient)));
     }
+}
+
+/// How large and how turned a body is; none, with a fault, if nothing would be left of it.
+fn rest_from_asset(body: &manifest::Body, report: &mut Report) -> Option<DAffine3> {
+    let map = DAffine3::from_scale_rotation_translation(body.scale, body.placement.rotation, DVec3::ZERO);
+    let scale = body.scale.abs();
+    if scale.min_element() >= 1e-100 && scale.max_element() <= 1e100 {
+        return Some(map);
+    }
+    report.fault(
+        body.place.clone(),
+        "at this scale nothing is left of the body, or nothing else",
+        "scale: 0.001",
+    );
+    None
 }
 
 /// The surfaces of a body, one for each material of its file.

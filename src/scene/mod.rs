@@ -8,6 +8,7 @@ mod sky;
 mod solids;
 
 pub use compose::compose;
+pub(crate) use compose::placement;
 pub use materials::UNLIT_LUMINANCE;
 
 use crate::lamp::Lamp;

@@ -172,6 +172,15 @@ impl Source {
         self.smooth.iter().map(tone).max().unwrap_or(Tone::Grey)
     }
 
+    /// The width (nm, at half height) of the narrowest peak that a table in it has.
+    pub fn narrowest_peak_nm(&self) -> Option<f64> {
+        let of = |(_, smooth): &(f64, Smooth)| match smooth {
+            Smooth::Table(table) => table.narrowest_peak_nm(),
+            _ => None,
+        };
+        self.smooth.iter().filter_map(of).reduce(f64::min)
+    }
+
     /// Whether nothing is in it.
     pub fn is_dark(&self) -> bool {
         self.smooth.is_empty() && self.lines.is_empty()

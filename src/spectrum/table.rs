@@ -41,6 +41,32 @@ impl Table {
         (1..self.nm.len()).map(piece).sum()
     }
 
+    /// The width at half height of the narrowest peak (nm) that rises above what is around it by a quarter of the table's
+    /// greatest value; none if there is no such peak.
+    pub fn narrowest_peak_nm(&self) -> Option<f64> {
+        let most = self.value.iter().copied().fold(0.0, f64::max);
+        let peaks = 1..self.value.len() - 1;
+        let peaks =
+            peaks.filter(|i| self.value[*i] > self.value[i - 1] && self.value[*i] >= self.value[i + 1]);
+        let width = |i: usize| {
+            let top = self.value[i];
+            let lower = |value: &&f64| **value <= top;
+            let left = self.value[..i].iter().rev().take_while(lower).copied().fold(top, f64::min);
+            let right = self.value[i + 1..].iter().take_while(lower).copied().fold(top, f64::min);
+            let foot = left.max(right);
+            let half = 0.5 * (foot + top);
+            // Where the value crosses the half between two neighbours.
+            let crossing = |out: usize, within: usize| {
+                let part = (half - self.value[out]) / (self.value[within] - self.value[out]);
+                self.nm[out] + part * (self.nm[within] - self.nm[out])
+            };
+            let before = (0..i).rev().find(|j| self.value[*j] <= half)?;
+            let after = (i + 1..self.value.len()).find(|j| self.value[*j] <= half)?;
+            (top - foot > 0.25 * most).then(|| crossing(after, after - 1) - crossing(before, before + 1))
+        };
+        peaks.filter_map(width).reduce(f64::min)
+    }
+
     /// First and last wavelength, nm.
     pub fn range(&self) -> (f64, f64) {
         (self.nm[0], self.nm[self.nm.len() - 1])
@@ -89,5 +115,21 @@ impl Daylight {
     fn beyond(&self, wavelength_nm: f64) -> f64 {
         let scale = if wavelength_nm < 300.0 { self.below } else { self.above };
         scale * planck(wavelength_nm, 6504.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrowest_peak_is_found_between_broad_ones_and_ripples_are_none() {
+        let table = |rows: &[(f64, f64)]| Table::new(rows.iter().copied()).unwrap().narrowest_peak_nm();
+        let broad = [(400.0, 0.0), (500.0, 2.0), (600.0, 0.0)];
+        assert_eq!(table(&broad), Some(100.0));
+        let sharp = [(400.0, 0.0), (500.0, 2.0), (540.0, 1.2), (544.0, 3.2), (550.0, 1.2), (600.0, 0.0)];
+        assert_eq!(table(&sharp), Some(5.0));
+        let ripple = [(400.0, 1.0), (500.0, 1.1), (501.0, 1.0), (700.0, 4.0)];
+        assert_eq!(table(&ripple), None);
     }
 }

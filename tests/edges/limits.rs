@@ -95,3 +95,69 @@ fn what_is_faster_than_can_be_followed_is_refused_with_its_number() {
         assert!(said.contains(part), "{part}: {said}");
     }
 }
+
+#[test]
+fn time_is_no_doubt_about_what_rests() {
+    let (said, code) = checked("at: 0 0 -3 m, at_time: -1e13 s, scale: 0.01", "at: 0 0 0 m", "");
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    let (said, code) = checked("at: 0 0 -3 m, at_time: -1e13 s, velocity: 0.5 0 0 c", "at: 0 0 0 m", "");
+    assert!(code == 0 && said.contains("place is known to"), "{said}");
+}
+
+#[test]
+fn lamp_whose_place_is_not_known_is_warned_of_or_refused() {
+    let lamp = |time: &str, speed: &str| {
+        let text = format!(
+            "lights: [{{ lamp: {{ intensity: 9 cd }}, at: 0 3 0 m, at_time: {time}, velocity: {speed} }}]\n"
+        );
+        checked("at: 0 0 -3 m", "at: 0 0 0 m", &text)
+    };
+    let (said, code) = lamp("-1e4 s", "0.5 0 0 c");
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    let (said, code) = lamp("-1e15 s", "0 0 0 c");
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    let (said, code) = lamp("-5e14 s", "0.5 0 0 c");
+    assert!(code == 0 && said.contains("its place is known to"), "{said}");
+    let (said, code) = lamp("-1e17 s", "0.5 0 0 c");
+    assert!(code == 2 && said.contains("at_time") && said.contains("m.yaml:8"), "{said}");
+}
+
+#[test]
+fn clock_that_cannot_be_read_is_warned_of() {
+    let blinking = |period: &str| {
+        let text = format!(
+            "lights: [{{ lamp: {{ intensity: 9 cd }}, at: 0 3 0 m, blinking: {{ period: {period} }} }}]\n"
+        );
+        checked("at: 0 0 -3 m", "at: 0 0 0 m", &text)
+    };
+    let (said, code) = blinking("1e-6 s");
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    let (said, code) = blinking("1e-14 s");
+    assert!(code == 0 && said.contains("its clock can be read to"), "{said}");
+}
+
+#[test]
+fn body_of_which_a_scale_leaves_nothing_is_refused() {
+    for scale in ["1e-120", "1e-200 1 1"] {
+        let (said, code) = checked(&format!("at: 0 0 -3 m, scale: {scale}"), "at: 0 0 0 m", "");
+        assert!(code == 2 && said.contains("m.yaml:4"), "{scale}: {said}");
+    }
+}
+
+#[test]
+fn peaks_that_wavelengths_may_miss_are_warned_of() {
+    let lamp = |rows: &str, picture: &str| {
+        let spectrum = format!("spectrum: {{ table: [{rows}] }}");
+        let light = format!("lights: [{{ lamp: {{ intensity: 9 W/sr, {spectrum} }}, at: 0 3 0 m }}]\n");
+        checked("at: 0 0 -3 m", "at: 0 0 0 m", &(light + picture))
+    };
+    let spike = "[400, 1], [529, 1], [531, 20], [533, 1], [700, 1]";
+    let hill = "[400, 1], [500, 1], [531, 20], [560, 1], [700, 1]";
+    let (said, code) = lamp(spike, "");
+    assert!(code == 0 && said.contains("a peak 2.0 nm wide"), "{said}");
+    let (said, code) = lamp(hill, "");
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    let narrower = "[400, 1], [520, 1], [526, 20], [532, 1], [700, 1]";
+    assert!(lamp(narrower, "").0.contains("a peak 6.0 nm"));
+    assert!(!lamp(narrower, "picture: { wavelengths: 64 }").0.contains("warning"));
+}
