@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A model of the benchmark in Blender's Cycles: in_cycles.py MODEL.glb [--size 1280x720] [--samples 1] [--threads 2] [--save PICTURE.exr]
 
-Serves compare.py (see serve.py). Cycles picks one of the lamps at random for each sample and one way at each face of glass: to shade both lamps it takes two
+Serves bench.py (see serve.py). Cycles picks one of the lamps at random for each sample and one way at each face of glass: to shade both lamps it takes two
 samples. Light between walls, denoising and adaptive sampling are off. Lamps do not shine through its glass.
 """
 import argparse

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A model of the benchmark in Mitsuba 3: in_mitsuba.py MODEL.glb [--variant llvm_ad_rgb] [--size 1280x720] [--samples 1] [--threads 2] [--white] [--pick] [--save PICTURE.npy]
 
-Serves compare.py: says when the first picture is there, and then makes one for each line that it reads (see serve.py).
+Serves bench.py: says when the first picture is there, and then makes one for each line that it reads (see serve.py).
 Mitsuba's own `direct` picks one of two lamps at random (and with two samples of them makes points twice as bright), and its `path` one of a face's two ways. Here every
 hit asks every lamp, with a shadow ray each, and both ways of a face of glass are followed (--pick: one of them, at random), all by Mitsuba's own kernels.
 """
@@ -92,22 +92,18 @@ def scene_of(model, white):
 # ---------------------------------------------------------------- the picture
 
 class Camera:
-    """Rays through the middles of pixels, or evenly spread over them."""
+    """Rays through one place of each pixel."""
 
-    def __init__(self, model, size, samples):
-        (self.width, self.height), self.samples = size, samples
+    def __init__(self, model, size):
+        self.width, self.height = size
         matrix, across, _ = model.camera()
         self.eye, self.axes, self.reach = matrix[:3, 3], matrix[:3, :3], math.tan(across / 2)
 
-    def rays(self, seed):
-        index = dr.arange(mi.UInt32, self.width * self.height * self.samples)
-        pixel = index // self.samples
-        x, y = mi.Float(pixel % self.width), mi.Float(pixel // self.width)
-        if self.samples == 1:
-            dx = dy = mi.Float(0.5)
-        else:
-            chance = mi.PCG32(size=len(index), initstate=seed)
-            dx, dy = chance.next_float32(), chance.next_float32()
+    def rays(self, dx, dy):
+        # Opaque, or Mitsuba would compile its kernels anew for other numbers.
+        dx, dy = dr.opaque(mi.Float, dx), dr.opaque(mi.Float, dy)
+        index = dr.arange(mi.UInt32, self.width * self.height)
+        x, y = mi.Float(index % self.width), mi.Float(index // self.width)
         right = self.reach * (2 * (x + dx) / self.width - 1)
         up = self.reach * (self.height - 2 * (y + dy)) / self.width
         column = lambda i: mi.Vector3f(*[float(c) for c in self.axes[:, i]])
@@ -195,28 +191,34 @@ def one_way(scene, emitters, ray, chance):
 
 
 class Picture:
-    """Makes the picture."""
+    """Makes the picture, a sample of all pixels after another: that is faster than all samples at once."""
 
     def __init__(self, model, size, samples, white, pick):
-        self.scene, self.camera = scene_of(model, white), Camera(model, size, samples)
+        self.scene, self.camera = scene_of(model, white), Camera(model, size)
         self.emitters = self.scene.emitters()
+        side = math.isqrt(samples)
+        self.offsets = [((i + 0.5) / side, (j + 0.5) / side) for j in range(side) for i in range(side)]
         names = [name for name, _, _ in model.materials()]
         self.way = "lamps" if not {"Mirror", "Glass"} & set(names) else "one" if pick else "both"
 
-    def make(self, seed):
-        index, ray = self.camera.rays(seed)
-        samples = self.camera.samples
-        if self.way == "both":
-            light = dr.zeros(mi.Color3f, len(index))
-            both_ways(self.scene, self.emitters, index, ray, light)
-        elif self.way == "one":
-            light = one_way(self.scene, self.emitters, ray, mi.PCG32(size=len(index), initstate=seed + 1))
-        else:
-            light = lit(self.scene, self.emitters, self.scene.ray_intersect(ray), mi.Bool(True))
-        if samples > 1:
-            light = mi.Color3f(*[dr.block_sum(light[k], samples) / samples for k in range(3)])
+    def make(self, number):
+        light = dr.zeros(mi.Color3f, self.camera.width * self.camera.height)
+        for k, offset in enumerate(self.offsets):
+            light += self.sample(offset, number * len(self.offsets) + k)
+            dr.eval(light)
+        light /= len(self.offsets)
         dr.eval(light)
         dr.sync_thread()
+        return light
+
+    def sample(self, offset, seed):
+        index, ray = self.camera.rays(*offset)
+        if self.way == "lamps":
+            return lit(self.scene, self.emitters, self.scene.ray_intersect(ray), mi.Bool(True))
+        if self.way == "one":
+            return one_way(self.scene, self.emitters, ray, mi.PCG32(size=len(index), initstate=dr.opaque(mi.UInt64, seed)))
+        light = dr.zeros(mi.Color3f, len(index))
+        both_ways(self.scene, self.emitters, index, ray, light)
         return light
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A model of the benchmark in POV-Ray 3.7: in_povray.py MODEL.glb [--size 1280x720] [--threads 2] [--save PICTURE.png]
 
-Serves compare.py (see serve.py); needs `povray`. POV-Ray asks every lamp at every hit and follows both ways at faces of glass, as terrell does, one sample to a pixel.
-Each picture is a process; what counts is the time that it says it traced. Lamps do not shine through its glass.
+Serves bench.py (see serve.py); needs `povray`. POV-Ray asks every lamp at every hit and follows both ways at faces of glass, as terrell does, one sample to a pixel.
+Each picture is a process; what counts is the time that it says it traced.
 """
 import argparse
 import math
@@ -54,7 +54,7 @@ def paint(number, name, color, png, folder):
 
 
 def write(model, folder, size):
-    """The scene as POV-Ray reads it: meshes once, objects as often as they are placed. Its x is the other way round, so the camera's is."""
+    """The scene as POV-Ray reads it: meshes once, objects as often as they are placed."""
     paints = [paint(number, *material, folder) for number, material in enumerate(model.materials())]
     with open(os.path.join(folder, "scene.pov"), "w") as file:
         file.write(f"#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level {DEPTH + 1} }}\nbackground {{ rgb 0 }}\n")

@@ -2,6 +2,7 @@
 
   rest      as the model has it, each of its nodes a body; the lamps and the observer at rest in the lab
   white     the same with both lamps white: three wavelengths suffice
+  still     the same by one observer: one picture serves for all, so what it takes is developing and writing
   together  everything at 0.9 c with one velocity, the observer and the lamps too: the picture is that of rest
   apart     every body at 0.9 c its own way, each up to 25 degrees off, the observer and the lamps at 0.9 c another: bodies appear where they do at rest
 
@@ -15,7 +16,7 @@ import yaml
 
 from model import DEPTH, INDEX, MIRROR, Model
 
-KINDS = ("rest", "white", "together", "apart")
+KINDS = ("rest", "white", "still", "together", "apart")
 SPEED = 0.9
 COUNT = 1000  # exposures; as many are rendered as are asked for
 MATERIALS = {"Mirror": {"mirror": MIRROR}, "Glass": {"glass": INDEX}}
@@ -84,19 +85,20 @@ def manifest(model, kind, size=(1280, 720), samples=1):
         for at, cd, color in model.lamps(white=kind == "white")
     ]
     matrix, across, _ = model.camera()
+    eye = f"{three(matrix[:3, 3])} m"
+    place = {"at": eye} if kind == "still" else {**placement(observer, (0.0, np.zeros(3))), "ring": {"centre": eye, "radius": "0.0001 m"}}
     written = {
         "light_speed": "1 m/s",
         "assets": assets,
         "bodies": made,
         "lights": lamps,
         "observer": {
-            **placement(observer, (0.0, np.zeros(3))),
-            "ring": {"centre": f"{three(matrix[:3, 3])} m", "radius": "0.0001 m"},
+            **place,
             "direction": three(-matrix[:3, 2]),
             "up": three(matrix[:3, 1]),
             "field_of_view": f"{math.degrees(across)!r} deg",
         },
-        "exposures": {"at": "0 s", "count": COUNT},
+        "exposures": {"from": "0 s", "to": "1 s", "count": COUNT} if kind == "still" else {"at": "0 s", "count": COUNT},
         "picture": {"size": f"{size[0]} {size[1]}", "samples": samples, "filter": "box", "depth": DEPTH, "white": f"{model.white():.6g} cd/m2"},
         "film": {"rate": 24, "video": "off"},
         "output": {"folder": f"out/{os.path.basename(model.path)[:-4]}-{kind}", "exr": "off"},
