@@ -48,12 +48,11 @@ class Bench:
         self.peers, self.singles = {}, {}
 
     def ours(self, kind, samples):
-        """A picture's part of a film, and (of one sample) the first picture from the files."""
-        more = ["--samples", str(samples)]
-        one = self.terrell.one(self.manifest[kind], *more)
-        if samples == 1:
-            self.singles[kind] = one
-        return self.terrell.film(self.manifest[kind], 9 if samples == 1 else 3, one, *more)
+        """A picture's part of a film."""
+        if kind not in self.singles:
+            self.singles[kind] = self.terrell.one(self.manifest[kind])
+        count = 9 if samples == 1 else 2
+        return self.terrell.film(self.manifest[kind], count, self.singles[kind], "--samples", str(samples), samples=samples)
 
     def film(self, video):
         """Of a still film each picture but the first is developed and written (and encoded), and nothing else."""

@@ -5,22 +5,37 @@ import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
+def largest_memory(pid):
+    """The largest memory of a process so far, MB. (What `wait4` says counts what Python had when it started the process.)"""
+    try:
+        with open(f"/proc/{pid}/status") as file:
+            return next((int(line.split()[1]) / 1024 for line in file if line.startswith("VmHWM")), 0.0)
+    except OSError:
+        return 0.0
+
+
 def run(command):
     """Runs a command to its end: seconds by the clock and of the processor, and the largest memory in MB."""
     began = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    said = process.stderr.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    seconds = time.perf_counter() - began
-    if process.returncode:
-        raise SystemExit(f"{' '.join(command)}\n{said[-2000:]}")
-    return {"seconds": seconds, "processor": usage.ru_utime + usage.ru_stime, "megabytes": usage.ru_maxrss / 1024}
+    with tempfile.TemporaryFile("w+") as said:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=said)
+        megabytes, pid = 0.0, 0
+        while pid == 0:
+            megabytes = max(megabytes, largest_memory(process.pid))
+            time.sleep(0.005)
+            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        seconds = time.perf_counter() - began
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode:
+            said.seek(0)
+            raise SystemExit(f"{' '.join(command)}\n{said.read()[-2000:]}")
+    return {"seconds": seconds, "processor": usage.ru_utime + usage.ru_stime, "megabytes": megabytes}
 
 
 class Terrell:
@@ -37,14 +52,14 @@ class Terrell:
         shutil.rmtree(self.out, ignore_errors=True)
         return run([self.program, "render", manifest, "--out", self.out, "--to", "0", *more])
 
-    def film(self, manifest, count, one, *more):
-        """A picture's part of a film of so many; `one` is what the first alone took."""
+    def film(self, manifest, count, one, *more, samples=1):
+        """A picture's part of a film of so many; `one` is what the first alone took, with one sample."""
         shutil.rmtree(self.out, ignore_errors=True)
         whole = run([self.program, "render", manifest, "--out", self.out, "--to", str(count - 1), *more])
         pictures = sorted(name for name in os.listdir(self.out) if name.endswith(".png"))
         written = [os.stat(os.path.join(self.out, pictures[k])).st_mtime_ns * 1e-9 for k in (0, -1)]
         seconds = (written[1] - written[0]) / (count - 1)
-        processor = (whole["processor"] - one["processor"]) / (count - 1)
+        processor = (whole["processor"] - one["processor"]) / (count - 1 / samples)
         return {"seconds": seconds, "processor": processor, "megabytes": whole["megabytes"]}
 
 
