@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """terrell against Mitsuba, Cycles and POV-Ray, and in motion against itself at rest.
 
-usage: bench.py FOLDER [--quick] [--runs 5] [--terrell PROGRAM] [--scenes mesh1m,inst100,spheres] [--without cycles,povray] [--table]
+usage: bench.py FOLDER [--quick] [--runs 5] [--terrell PROGRAM] [--scenes mesh1m,inst100,spheres] [--without cycles,povray]
+       [--cases "terrell rest 1,mitsuba 1"] [--table]
 
 Makes the models and manifests in FOLDER if they are not there, sees that terrell and Mitsuba make the same picture, and times all programs in turn, --runs times.
 Goes on where it was stopped (FOLDER/bench.jsonl); leaves bench.csv and bench.md there. --quick: coarse models, 640 x 360, two runs, in FOLDER/quick.
---table: only the tables, of what was measured.
+--cases: only these, as bench.csv names them. --table: only the tables, of what was measured.
 """
 import argparse
 import os
@@ -14,7 +15,6 @@ import sys
 
 import manifests
 from clock import HERE, Ledger, Peer, Terrell
-from model import Model
 from tables import write_tables
 
 SCENES = ("mesh1m", "inst100", "spheres")
@@ -28,6 +28,7 @@ def arguments():
     parser.add_argument("--terrell", default=os.path.join(HERE, "..", "..", "target", "release", "terrell"))
     parser.add_argument("--scenes", default=",".join(SCENES))
     parser.add_argument("--without", default="")
+    parser.add_argument("--cases")
     parser.add_argument("--table", action="store_true")
     a = parser.parse_args()
     a.folder = os.path.join(a.folder, "quick") if a.quick else a.folder
@@ -93,7 +94,8 @@ class Bench:
         if has("cycles"):
             all_["cycles 2"] = lambda: self.peer("in_cycles.py", "--samples", "2")
             all_["cycles first"] = lambda: self.first("in_cycles.py")
-        return all_
+        wanted = self.a.cases.split(",") if self.a.cases else all_
+        return {name: measure for name, measure in all_.items() if name in wanted}
 
     def check(self):
         """Whether terrell and Mitsuba make the same picture, with white lamps (coloured ones differ by what spectra are); by a process that has Mitsuba."""
@@ -110,7 +112,6 @@ class Bench:
     def run(self):
         if "mitsuba" not in self.a.without and not self.ledger.has(self.scene, "check", 0):
             self.check()
-        self.ledger.take((self.scene, "triangles", 0), {"triangles": Model(self.model).triangles()})
         cases = self.cases()
         for turn in range(self.a.runs):
             for name, measure in cases.items():

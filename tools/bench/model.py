@@ -56,11 +56,6 @@ class Model(Glb):
         across = 2 * math.atan(math.tan(lens["yfov"] / 2) * lens["aspectRatio"])
         return matrix, across, lens["yfov"]
 
-    def triangles(self):
-        """How many are seen."""
-        count = lambda part: self.json["accessors"][part["indices"]]["count"] // 3
-        return sum(count(part) for node, _ in self.nodes("mesh") for part in self.json["meshes"][node["mesh"]]["primitives"])
-
     def white(self):
         """A luminance to be shown as white, cd/m2: that of something white, lit by all lamps, some way before the camera."""
         eye = self.camera()[0][:3, 3]
