@@ -68,7 +68,7 @@ class Bench:
         return self.peers[key].picture()
 
     def first(self, script):
-        """The first picture from the file, libraries being loaded."""
+        """The first picture from the file, counted from when the libraries are loaded."""
         peer = Peer(script, self.model, *self.size)
         peer.close()
         return {"seconds": peer.facts["build"] + peer.facts["first"], **{k: peer.facts[k] for k in ("build", "first", "whole", "megabytes")}}
