@@ -6,7 +6,7 @@ use proptest::prelude::{ProptestConfig, prop_assert_eq, proptest};
 use std::time::{Duration, Instant};
 use terrell::mesh::Mesh;
 use terrell::tree::{Bounds, Line, Tree};
-use terrell::triangles::{Meeting, Sheared, Triangles};
+use terrell::triangles::{Meeting, Triangles};
 
 /// The same mesh in both trees.
 struct Both {
@@ -32,7 +32,7 @@ impl Both {
 
     /// All that the binary tree leads to at 0 < s < `s_max`, by s and then by number.
     fn all(&self, line: &Line, s_max: f64) -> Vec<Bits> {
-        let (sheared, mesh) = (Sheared::new(line), &self.eight.mesh);
+        let (sheared, mesh) = (self.eight.sheared(line), &self.eight.mesh);
         let mut all = Vec::new();
         self.two.walk(line, s_max, |triangle, limit| {
             let corners = mesh.triangles[triangle as usize].map(|i| mesh.positions[i as usize].as_ref());

@@ -86,6 +86,11 @@ impl Space {
         Self { bounds, entrance, centre, scale: 1.0 / half }
     }
 
+    /// Half the widening of each box, as a length.
+    pub(super) fn pad(&self) -> f64 {
+        f64::from(PAD) / self.scale
+    }
+
     /// A box in these units, padded.
     pub(super) fn padded(&self, b: &Bounds) -> (Vec3, Vec3) {
         let lo = ((b.lo - self.centre) * self.scale).as_vec3() - PAD;

@@ -88,6 +88,12 @@ impl Wide {
         self.space.bounds
     }
 
+    /// A length below the widening of each box and above the rounding of what is in it, as long as no line starts more than
+    /// 1e7 times the size of all away.
+    pub(crate) fn grain(&self) -> f64 {
+        0.1 * self.space.pad()
+    }
+
     /// Bytes that it takes.
     pub(crate) fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<Node>()

@@ -51,12 +51,14 @@ pub struct Sheared {
     origin: [f64; 3],
     shear: [f64; 2],
     per_depth: f64,
+    depth_per_s: f64,
+    grain: f64,
 }
 
 impl Sheared {
-    /// Of a line; where it does not move, or by what is not a number, it meets nothing.
+    /// Of a line, for triangles whose boxes are widened by more than `grain`.
     #[inline]
-    pub fn new(line: &Line) -> Self {
+    pub(super) fn new(line: &Line, grain: f64) -> Self {
         let size = line.step.abs();
         let z = if size.x > size.y {
             if size.x > size.z { 0 } else { 2 }
@@ -75,6 +77,8 @@ impl Sheared {
             origin: [line.origin[x], line.origin[y], line.origin[z]],
             shear: [line.step[x] * per_depth, line.step[y] * per_depth],
             per_depth,
+            depth_per_s: line.step[z],
+            grain,
         }
     }
 
@@ -119,8 +123,8 @@ impl Sheared {
 
     /// Where it meets a triangle, before and behind: parameter s and the weights of the second and the third corner.
     #[inline(always)]
-    pub fn meet(&self, [a, b, c]: [&[f32; 3]; 3]) -> Option<(f64, (f64, f64))> {
-        let (a, b, c) = (self.across(a), self.across(b), self.across(c));
+    pub fn meet(&self, corners: [&[f32; 3]; 3]) -> Option<(f64, (f64, f64))> {
+        let [a, b, c] = corners.map(|corner| self.across(corner));
         let edge = |p: (f64, f64, f64), q: (f64, f64, f64)| p.0 * q.1 - p.1 * q.0;
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
@@ -131,6 +135,59 @@ impl Sheared {
             return None;
         }
         let depth = u * a.2 + v * b.2 + w * c.2;
-        Some((depth * self.per_depth / sum, (v / sum, w / sum)))
+        let s = depth * self.per_depth / sum;
+        let weights = (v / sum, w / sum);
+        if self.is_beside(corners, s) {
+            Some((s, weights))
+        } else {
+            Some((self.brought_back(corners, s)?, weights))
+        }
+    }
+
+    /// Whether the line at s is in the triangle's box, as seen across the line. (Along it s cannot be outside.)
+    #[inline(always)]
+    fn is_beside(&self, corners: [&[f32; 3]; 3], s: f64) -> bool {
+        let depth = s * self.depth_per_s;
+        let grain = self.grain + 1e-14 * depth.abs();
+        let inside = |i: usize| {
+            let (lo, hi) = self.reach(corners, i);
+            let at = self.shear[i] * depth;
+            lo - grain <= at && at <= hi + grain
+        };
+        inside(0) && inside(1)
+    }
+
+    /// How far a triangle reaches along an axis, from the line's origin.
+    #[inline(always)]
+    fn reach(&self, corners: [&[f32; 3]; 3], i: usize) -> (f64, f64) {
+        let [a, b, c] = corners.map(|corner| corner[self.axes[i]]);
+        let (lo, hi) = (if a < b { a } else { b }, if a > b { a } else { b });
+        let (lo, hi) = (if c < lo { c } else { lo }, if c > hi { c } else { hi });
+        (f64::from(lo) - self.origin[i], f64::from(hi) - self.origin[i])
+    }
+
+    /// Where a line lies in a triangle's plane the weights are rounding alone, and with them s: the nearest s at which it is in
+    /// the triangle's box; none if it passes that. So what is met does not depend on which boxes were visited before.
+    #[cold]
+    #[inline(never)]
+    fn brought_back(&self, corners: [&[f32; 3]; 3], s: f64) -> Option<f64> {
+        let (mut first, mut last) = (f64::NEG_INFINITY, f64::INFINITY);
+        for i in 0..3 {
+            let step = if i < 2 { self.shear[i] } else { 1.0 };
+            let (lo, hi) = self.reach(corners, i);
+            let grain = self.grain + 1e-14 * lo.abs().max(hi.abs());
+            let (lo, hi) = (lo - grain, hi + grain);
+            if step == 0.0 {
+                if lo > 0.0 || hi < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = (lo / step, hi / step);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+        let depth = s * self.depth_per_s;
+        (first <= last && depth.is_finite()).then(|| depth.clamp(first, last) * self.per_depth)
     }
 }

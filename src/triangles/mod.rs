@@ -81,6 +81,12 @@ impl Triangles {
             .is_some_and(|until| until.stopped)
     }
 
+    /// The line, to be tested against triangles one by one: what a walk does to those that it leads to.
+    #[inline]
+    pub fn sheared(&self, line: &Line) -> Sheared {
+        Sheared::new(line, self.tree.grain())
+    }
+
     #[inline]
     fn walk<'a, V: Visit>(
         &'a self,
@@ -92,7 +98,7 @@ impl Triangles {
             return None;
         }
         let entered = self.tree.enter(line, s_max)?;
-        let mut visit = visit(&self.blocks, Sheared::new(line));
+        let mut visit = visit(&self.blocks, self.sheared(line));
         self.tree.walk(entered, s_max, &mut visit);
         Some(visit)
     }

@@ -14,26 +14,28 @@ use terrell::triangles::{Meeting, Sheared, Triangles};
 
 /// The binary tree with a scalar test: what the program did before.
 struct Binary<'a> {
-    mesh: &'a Mesh,
+    triangles: &'a Triangles,
     tree: Tree,
 }
 
 impl<'a> Binary<'a> {
-    fn new(mesh: &'a Mesh) -> Self {
+    fn new(triangles: &'a Triangles) -> Self {
+        let mesh = &triangles.mesh;
         let boxes: Vec<Bounds> = (mesh.triangles.iter())
             .map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3())))
             .collect();
-        Self { mesh, tree: Tree::build(&boxes) }
+        Self { triangles, tree: Tree::build(&boxes) }
     }
 
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
-        let corners = self.mesh.triangles[triangle as usize].map(|i| &self.mesh.positions[i as usize]);
+        let mesh: &Mesh = &self.triangles.mesh;
+        let corners = mesh.triangles[triangle as usize].map(|i| &mesh.positions[i as usize]);
         let (s, weights) = line.meet(corners.map(AsRef::as_ref))?;
         (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
     }
 
     fn nearest(&self, line: &Line, s_max: f64) -> Option<Meeting> {
-        let sheared = Sheared::new(line);
+        let sheared = self.triangles.sheared(line);
         let mut nearest = None;
         self.tree.walk(line, s_max, |triangle, limit| {
             self.meet(&sheared, triangle, limit).map_or(limit, |meeting| {
@@ -45,7 +47,7 @@ impl<'a> Binary<'a> {
     }
 
     fn any(&self, line: &Line, s_max: f64) -> bool {
-        let sheared = Sheared::new(line);
+        let sheared = self.triangles.sheared(line);
         let met = |triangle, limit| if self.meet(&sheared, triangle, limit).is_some() { -1.0 } else { limit };
         self.tree.walk(line, s_max, met) < 0.0
     }
@@ -60,7 +62,13 @@ fn median(seconds: &mut [f64]) -> f64 {
 const PIECE: usize = 1 << 14;
 
 /// Times both in turn and prints millions of rays a second.
-fn compare(name: &str, lines: &[Line], runs: usize, two: impl Fn(&Line) -> f64, eight: impl Fn(&Line) -> f64) {
+fn compare(
+    name: &str,
+    lines: &[Line],
+    runs: usize,
+    two: impl Fn(&Line) -> f64,
+    eight: impl Fn(&Line) -> f64,
+) {
     let two = |lines: &[Line]| lines.iter().map(&two).sum();
     let eight = |lines: &[Line]| lines.iter().map(&eight).sum();
     let mut total = [0.0; 2];
@@ -81,7 +89,11 @@ fn compare(name: &str, lines: &[Line], runs: usize, two: impl Fn(&Line) -> f64, 
         }
     }
     let [two, eight] = total.map(|seconds| lines.len() as f64 / seconds * 1e-6);
-    println!("{name:12} {two:8.2} {eight:8.2} {:8.2}   {}", eight / two, if same { "same" } else { "DIFFERENT" });
+    println!(
+        "{name:12} {two:8.2} {eight:8.2} {:8.2}   {}",
+        eight / two,
+        if same { "same" } else { "DIFFERENT" }
+    );
 }
 
 fn main() {
@@ -101,19 +113,36 @@ fn main() {
         build.push(begin.elapsed().as_secs_f64());
     }
     let each = |bytes: usize| bytes as f64 * 1e-6 / million;
-    println!("{} triangles; bytes a triangle: tree {:.1}, mesh {:.1}", mesh.triangles.len(), each(triangles.bytes()), each(attributes + uvs));
-    println!("built in {:.3} s a million, on {} threads", median(&mut build) / million, rayon::current_num_threads());
-    let binary = Binary::new(&mesh);
-    let nearest_of_two = |line: &Line| binary.nearest(line, f64::INFINITY).map_or(0.0, |m| m.s + f64::from(m.triangle));
-    let nearest = |line: &Line| triangles.nearest(line, f64::INFINITY).map_or(0.0, |m| m.s + f64::from(m.triangle));
-    let place = |line: &Line| triangles.nearest(line, f64::INFINITY).map(|m| {
-        let [a, b, c] = triangles.corners(m.triangle);
-        (line.origin + line.step * m.s, (b - a).cross(c - a).normalize_or(DVec3::Z))
-    });
-    println!("\nmillion rays a second, medians of {runs}\n{:12} {:>8} {:>8} {:>8}", "", "two", "eight", "ratio");
+    println!(
+        "{} triangles; bytes a triangle: tree {:.1}, mesh {:.1}",
+        mesh.triangles.len(),
+        each(triangles.bytes()),
+        each(attributes + uvs)
+    );
+    println!(
+        "built in {:.3} s a million, on {} threads",
+        median(&mut build) / million,
+        rayon::current_num_threads()
+    );
+    let binary = Binary::new(&triangles);
+    let nearest_of_two =
+        |line: &Line| binary.nearest(line, f64::INFINITY).map_or(0.0, |m| m.s + f64::from(m.triangle));
+    let nearest =
+        |line: &Line| triangles.nearest(line, f64::INFINITY).map_or(0.0, |m| m.s + f64::from(m.triangle));
+    let place = |line: &Line| {
+        triangles.nearest(line, f64::INFINITY).map(|m| {
+            let [a, b, c] = triangles.corners(m.triangle);
+            (line.origin + line.step * m.s, (b - a).cross(c - a).normalize_or(DVec3::Z))
+        })
+    };
+    println!(
+        "\nmillion rays a second, medians of {runs}\n{:12} {:>8} {:>8} {:>8}",
+        "", "two", "eight", "ratio"
+    );
     let primary = rays::primary();
     let bounce = rays::bounce(&primary, place);
-    let sets: [Set<'_>; 3] = [("primary", &primary), ("incoherent", &rays::incoherent()), ("bounce", &bounce)];
+    let sets: [Set<'_>; 3] =
+        [("primary", &primary), ("incoherent", &rays::incoherent()), ("bounce", &bounce)];
     for (name, lines) in sets {
         if only.as_deref().is_none_or(|only| only == name) {
             compare(name, lines, runs, nearest_of_two, nearest);

@@ -25,7 +25,9 @@ pub fn ball_in_room(level: u32) -> Mesh {
     let mut positions: Vec<Vec3> = points.iter().map(|p| (*p * height(*p)).as_vec3()).collect();
     let normals = positions.iter().map(|p| p.normalize_or(Vec3::Z)).chain([Vec3::Z; 8]).collect();
     let first = positions.len() as u32;
-    positions.extend((0..8).map(|i| Vec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -6.0 } else { 6.0 }))));
+    positions.extend(
+        (0..8).map(|i| Vec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -6.0 } else { 6.0 }))),
+    );
     for [a, b, c, d] in [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]] {
         triangles.extend([[a, b, c], [a, c, d]].map(|corners| corners.map(|i| first + i)));
     }

@@ -33,7 +33,8 @@ pub fn primary() -> Vec<Line> {
     let ahead = -eye / eye.length();
     let right = ahead.cross(DVec3::Y) / ahead.cross(DVec3::Y).length();
     let up = right.cross(ahead);
-    let squares = (0..128 * 128).flat_map(|square| (0..64).map(move |i| (square % 128 * 8 + i % 8, square / 128 * 8 + i / 8)));
+    let squares = (0..128 * 128)
+        .flat_map(|square| (0..64).map(move |i| (square % 128 * 8 + i % 8, square / 128 * 8 + i / 8)));
     squares
         .map(|(x, y)| {
             let [x, y] = [x, y].map(|c| (f64::from(c) + 0.5) / 512.0 - 1.0);
