@@ -240,3 +240,11 @@ fn deep_trees_are_walked_to_their_end() {
         }
     }
 }
+
+/// With positions, normals, one set of texture coordinates and corners (28 bytes for a closed mesh) less than 100.
+#[test]
+fn tree_takes_less_than_62_bytes_a_triangle() {
+    let ball = built(icosphere(6));
+    let each = ball.bytes() as f64 / ball.mesh.triangles.len() as f64;
+    assert!(each < 62.0, "{each}");
+}

@@ -32,6 +32,7 @@ pub(super) fn collapse(space: &Space, boxes: &[Bounds]) -> (Vec<Node>, u32, Vec<
     };
     wide.weigh();
     let root = wide.adopt();
+    wide.nodes.shrink_to_fit();
     (wide.nodes, root, wide.blocks)
 }
 
@@ -87,9 +88,18 @@ impl Widened<'_> {
         if self.source(node).prim_count > 0 {
             return [as_leaf; 7];
         }
-        let mut costs = [as_leaf.min(self.as_node(node)); 7];
-        for trees in 2..8 {
-            costs[trees - 1] = costs[trees - 2].min(self.shared(node, trees).0);
+        let first = self.source(node).first_index as usize;
+        let (one, two) = (&self.costs[first], &self.costs[first + 1]);
+        // By how many trees there are below it, less two.
+        let mut shared = [f32::INFINITY; 7];
+        for left in 0..7 {
+            for right in 0..7 - left {
+                shared[left + right] = shared[left + right].min(one[left] + two[right]);
+            }
+        }
+        let mut costs = [as_leaf.min(NODE * self.source(node).aabb.half_area() + shared[6]); 7];
+        for trees in 1..7 {
+            costs[trees] = costs[trees - 1].min(shared[trees - 1]);
         }
         costs
     }
@@ -101,23 +111,12 @@ impl Widened<'_> {
         if possible { self.source(node).aabb.half_area() * blocks as f32 } else { f32::INFINITY }
     }
 
-    /// The cost of a node of eight.
-    fn as_node(&self, node: u32) -> f32 {
-        NODE * self.source(node).aabb.half_area() + self.shared(node, 8).0
-    }
-
-    /// The least cost of `trees` trees below an inner node, and how many of them are the first child's.
-    fn shared(&self, node: u32, trees: usize) -> (f32, usize) {
+    /// How many of the cheapest `trees` trees below an inner node are the first child's.
+    fn left_of(&self, node: u32, trees: usize) -> usize {
         let first = self.source(node).first_index as usize;
         let (one, two) = (&self.costs[first], &self.costs[first + 1]);
-        let mut best = (f32::INFINITY, 1);
-        for left in 1..trees {
-            let cost = one[left - 1] + two[trees - left - 1];
-            if cost < best.0 {
-                best = (cost, left);
-            }
-        }
-        best
+        let cost = |left: usize| one[left - 1] + two[trees - left - 1];
+        (1..trees).reduce(|best, left| if cost(left) < cost(best) { left } else { best }).unwrap_or(1)
     }
 
     /// The nodes that become the children of this one.
@@ -135,7 +134,7 @@ impl Widened<'_> {
                 continue;
             }
             let first = self.source(at).first_index;
-            let left = self.shared(at, trees).1;
+            let left = self.left_of(at, trees);
             open.push((first + 1, trees - left));
             open.push((first, left));
         }

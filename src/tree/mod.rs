@@ -53,8 +53,8 @@ impl obvhs::Boundable for Boxed {
 fn built(space: &Space, boxes: &[Bounds], params: BvhBuildParams) -> (Bvh2, Groups) {
     let unit: Vec<(Vec3, Vec3)> = boxes.par_iter().map(|b| space.padded(b)).collect();
     let groups = Groups::of_equal(&unit);
-    let boxed: Vec<Boxed> =
-        groups.first.iter().map(|&i| unit[i as usize]).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
+    let first = |&(begin, _): &(u32, u32)| unit[groups.order[begin as usize] as usize];
+    let boxed: Vec<Boxed> = groups.ranges.par_iter().map(first).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
     let mut seconds = Duration::ZERO;
     (build_bvh2(&boxed, params, &mut seconds), groups)
 }
@@ -181,10 +181,8 @@ fn aabb(lo: Vec3, hi: Vec3) -> Aabb {
 /// Items with the same box, told once to the builder: it takes quadratic time over equal boxes.
 struct Groups {
     order: Vec<u32>,
-    // Where each group begins in `order`, and the end.
-    begin: Vec<u32>,
-    // One member of each group.
-    first: Vec<u32>,
+    // Where each group begins and ends in `order`; groups go by their first members.
+    ranges: Vec<(u32, u32)>,
 }
 
 impl Groups {
@@ -193,21 +191,37 @@ impl Groups {
             let (lo, hi) = boxes[i as usize];
             [lo.x, lo.y, lo.z, hi.x, hi.y, hi.z].map(f32::to_bits)
         };
-        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
-        order.par_sort_unstable_by_key(|&i| (key(i), i));
-        let mut begin = Vec::new();
-        for place in 0..order.len() {
-            if place == 0 || key(order[place]) != key(order[place - 1]) {
-                begin.push(place as u32);
+        // Fowler, Noll and Vo's hash, word by word: what differs in it is not equal.
+        let hash = |i: u32| {
+            key(i).into_iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| {
+                (hash ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3)
+            })
+        };
+        let mut hashed: Vec<u64> =
+            (0..boxes.len() as u32).into_par_iter().map(|i| hash(i) >> 32 << 32 | u64::from(i)).collect();
+        hashed.par_sort_unstable();
+        let mut order: Vec<u32> = Vec::with_capacity(boxes.len());
+        // The end of the group of which an item is the first; zero for the others.
+        let mut begun = vec![(0, 0); boxes.len()];
+        for alike in hashed.chunk_by(|a, b| a >> 32 == b >> 32) {
+            let begin = order.len();
+            order.extend(alike.iter().map(|hashed| *hashed as u32));
+            if alike.len() > 1 {
+                order[begin..].sort_unstable_by_key(|&i| (key(i), i));
+            }
+            let mut place = begin as u32;
+            for equal in order[begin..].chunk_by(|&a, &b| key(a) == key(b)) {
+                let end = place + equal.len() as u32;
+                begun[equal[0] as usize] = (place, end);
+                place = end;
             }
         }
-        let first = begin.iter().map(|&place| order[place as usize]).collect();
-        begin.push(order.len() as u32);
-        Self { order, begin, first }
+        begun.retain(|(_, end)| *end > 0);
+        Self { order, ranges: begun }
     }
 
     fn members(&self, group: u32) -> &[u32] {
-        let group = group as usize;
-        &self.order[self.begin[group] as usize..self.begin[group + 1] as usize]
+        let (begin, end) = self.ranges[group as usize];
+        &self.order[begin as usize..end as usize]
     }
 }

@@ -110,6 +110,12 @@ impl Wide {
     pub(crate) fn walk<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
         with_best(Walk { tree: self, entered, s_max, visit })
     }
+
+    /// The same without the best instruction set.
+    #[cfg(test)]
+    pub(crate) fn walk_plainly<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
+        walk_on(super::lanes::Plain, self, entered, s_max, visit)
+    }
 }
 
 /// A walk to be done.

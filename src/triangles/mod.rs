@@ -163,3 +163,37 @@ impl<F: FnMut(Meeting) -> bool> Visit for Until<'_, F> {
         if *stopped { -1.0 } else { limit }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    /// Multiples of a golden ratio, parts of 1: spread evenly enough.
+    fn spread(i: u32) -> Vec3 {
+        let part = |ratio: f64| (f64::from(i) * ratio).fract() - 0.5;
+        DVec3::new(part(0.618_033_988_749), part(0.754_877_666_247), part(0.569_840_290_998)).as_vec3()
+    }
+
+    #[test]
+    fn all_instruction_sets_meet_the_same() {
+        let count = 5_000;
+        let corner = |i: u32| spread(i / 3) + 0.2 * spread(7 * i);
+        let positions = (0..3 * count).map(corner).collect();
+        let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let mesh = Triangles::new(Arc::new(Mesh { positions, triangles, ..Mesh::default() }));
+        let mut met = 0;
+        for i in 0..20_000 {
+            let origin = 2.0 * spread(11 * i).as_dvec3();
+            let line = Line { origin, step: spread(13 * i).as_dvec3() - origin };
+            let plain = mesh.tree.enter(&line, f64::INFINITY).and_then(|entered| {
+                let mut nearest = Nearest { blocks: &mesh.blocks, line: mesh.sheared(&line), met: None };
+                mesh.tree.walk_plainly(entered, f64::INFINITY, &mut nearest);
+                nearest.met
+            });
+            assert_eq!(mesh.nearest(&line, f64::INFINITY), plain);
+            met += u32::from(plain.is_some());
+        }
+        assert!((5_000..20_000).contains(&met), "{met}");
+    }
+}

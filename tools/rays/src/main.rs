@@ -27,6 +27,7 @@ impl<'a> Binary<'a> {
         Self { triangles, tree: Tree::build(&boxes) }
     }
 
+    #[inline(always)]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
         let mesh: &Mesh = &self.triangles.mesh;
         let corners = mesh.triangles[triangle as usize].map(|i| &mesh.positions[i as usize]);
