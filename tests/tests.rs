@@ -47,6 +47,7 @@ mod texture;
 mod tint;
 mod tree;
 mod velocity;
+mod wide;
 mod world;
 mod worldline;
 mod written;

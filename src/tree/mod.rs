@@ -1,0 +1,227 @@
+//! A tree of boxes in one space: built by obvhs, walked here.
+//!
+//! Boxes are `f32` in units of the tree's own size, so that 1e-6 m and 1e6 m are the same to it; they are
+//! padded by more than all rounding of a walk, and what they hold is tested by the caller in `f64`. A line that
+//! meets an item's box is therefore never lost. (obvhs's own walk clamps small direction components and
+//! misses, so it only builds.)
+
+mod collapse;
+mod lanes;
+mod space;
+mod wide;
+
+use glam::{Vec3, Vec3A};
+pub(crate) use lanes::Lanes;
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use rayon::prelude::*;
+use smallvec::SmallVec;
+pub use space::{Bounds, Line};
+use space::{Entered, Space};
+use std::time::Duration;
+pub(crate) use wide::{EMPTY, Numbers, Visit, Wide};
+
+/// Two children: their boxes, and where they go on.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    lo: [Vec3; 2],
+    hi: [Vec3; 2],
+    // An inner child: its index in `nodes`. A leaf: its first place in `items`.
+    first: [u32; 2],
+    // Items of a leaf; zero for an inner child.
+    count: [u32; 2],
+}
+
+/// A tree over items known by number and box.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    space: Space,
+    nodes: Vec<Node>,
+    items: Vec<u32>,
+}
+
+struct Boxed(Aabb);
+
+impl obvhs::Boundable for Boxed {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+/// obvhs's tree over the groups of equal boxes.
+fn built(space: &Space, boxes: &[Bounds], params: BvhBuildParams) -> (Bvh2, Groups) {
+    let unit: Vec<(Vec3, Vec3)> = boxes.par_iter().map(|b| space.padded(b)).collect();
+    let groups = Groups::of_equal(&unit);
+    let first = |&(begin, _): &(u32, u32)| unit[groups.order[begin as usize] as usize];
+    let boxed: Vec<Boxed> = groups.ranges.par_iter().map(first).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
+    let mut seconds = Duration::ZERO;
+    (build_bvh2(&boxed, params, &mut seconds), groups)
+}
+
+impl Tree {
+    /// Over items with these boxes, which must be finite.
+    pub fn build(boxes: &[Bounds]) -> Self {
+        let mut tree =
+            Self { space: Space::around(boxes), nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
+        if boxes.is_empty() {
+            return tree;
+        }
+        let (built, groups) = built(&tree.space, boxes, BvhBuildParams::medium_build());
+        tree.adopt(&built, &groups);
+        tree
+    }
+
+    /// The box of all items.
+    pub fn bounds(&self) -> Bounds {
+        self.space.bounds
+    }
+
+    /// Takes over obvhs's nodes, children's boxes moved into their parents, with an explicit stack (a degenerate
+    /// tree may be as deep as it has items).
+    fn adopt(&mut self, built: &Bvh2, groups: &Groups) {
+        // A box at infinity is met by no line: the second child of a root that is itself a leaf.
+        let nothing = Node { lo: [Vec3::INFINITY; 2], hi: [Vec3::INFINITY; 2], first: [0; 2], count: [0; 2] };
+        self.nodes.push(nothing);
+        let root = &built.nodes[0];
+        let children = root.first_index as usize;
+        // (obvhs's node, our parent, which child of it)
+        let mut open =
+            if root.prim_count > 0 { vec![(0, 0, 0)] } else { vec![(children + 1, 0, 1), (children, 0, 0)] };
+        while let Some((source, parent, side)) = open.pop() {
+            let node = &built.nodes[source];
+            let begin = node.first_index as usize;
+            let (first, count) = if node.prim_count > 0 {
+                let first = self.items.len() as u32;
+                for place in begin..begin + node.prim_count as usize {
+                    self.items.extend_from_slice(groups.members(built.primitive_indices[place]));
+                }
+                (first, self.items.len() as u32 - first)
+            } else {
+                let own = self.nodes.len();
+                self.nodes.push(nothing);
+                open.push((begin + 1, own, 1));
+                open.push((begin, own, 0));
+                (own as u32, 0)
+            };
+            let slot = &mut self.nodes[parent];
+            slot.lo[side] = node.aabb.min.into();
+            slot.hi[side] = node.aabb.max.into();
+            slot.first[side] = first;
+            slot.count[side] = count;
+        }
+    }
+
+    /// Calls `visit` with every item whose box the line may meet at 0 < s < `s_max`, roughly by growing s.
+    ///
+    /// `visit` gets the limit so far and returns the new one; a negative one ends the walk. Returns the last limit.
+    #[inline]
+    pub fn walk(&self, line: &Line, s_max: f64, visit: impl FnMut(u32, f64) -> f64) -> f64 {
+        if self.nodes.is_empty() {
+            return s_max;
+        }
+        self.space.enter(line, s_max).map_or(s_max, |entered| self.walk_on(entered, s_max, visit))
+    }
+
+    /// The rest of a walk, after its beginning.
+    #[inline]
+    fn walk_on(&self, mut walk: Entered, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
+        let mut limit = s_max;
+        let mut open = Open::new();
+        let mut at = 0_u32;
+        loop {
+            let node = &self.nodes[at as usize];
+            let near = [walk.entry(node.lo[0], node.hi[0]), walk.entry(node.lo[1], node.hi[1])];
+            let order = if near[1] < near[0] { [1, 0] } else { [0, 1] };
+            let mut next = None;
+            for side in order {
+                if near[side] > walk.t_max {
+                    continue;
+                }
+                match (node.count[side], next) {
+                    (0, None) => next = Some(node.first[side]),
+                    (0, Some(_)) => open.push((near[side], node.first[side])),
+                    _ => {}
+                }
+                let begin = node.first[side] as usize;
+                for &item in &self.items[begin..begin + node.count[side] as usize] {
+                    limit = visit(item, limit);
+                }
+                if limit < 0.0 {
+                    return limit;
+                }
+                if node.count[side] > 0 {
+                    walk.limit(limit);
+                }
+            }
+            let Some(follow) = next.or_else(|| before(&mut open, walk.t_max)) else { return limit };
+            at = follow;
+        }
+    }
+}
+
+/// Nodes still to be visited, with their entries; on the heap only in very deep trees.
+type Open = SmallVec<[(f32, u32); 32]>;
+
+/// The last of them that is entered before the limit.
+#[inline]
+fn before(open: &mut Open, t_max: f32) -> Option<u32> {
+    while let Some((entry, node)) = open.pop() {
+        if entry <= t_max {
+            return Some(node);
+        }
+    }
+    None
+}
+
+fn aabb(lo: Vec3, hi: Vec3) -> Aabb {
+    Aabb::new(Vec3A::from(lo), Vec3A::from(hi))
+}
+
+/// Items with the same box, told once to the builder: it takes quadratic time over equal boxes.
+struct Groups {
+    order: Vec<u32>,
+    // Where each group begins and ends in `order`; groups go by their first members.
+    ranges: Vec<(u32, u32)>,
+}
+
+impl Groups {
+    fn of_equal(boxes: &[(Vec3, Vec3)]) -> Self {
+        let key = |i: u32| {
+            let (lo, hi) = boxes[i as usize];
+            [lo.x, lo.y, lo.z, hi.x, hi.y, hi.z].map(f32::to_bits)
+        };
+        // Fowler, Noll and Vo's hash, word by word: what differs in it is not equal.
+        let hash = |i: u32| {
+            key(i).into_iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| {
+                (hash ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3)
+            })
+        };
+        let mut hashed: Vec<u64> =
+            (0..boxes.len() as u32).into_par_iter().map(|i| hash(i) >> 32 << 32 | u64::from(i)).collect();
+        hashed.par_sort_unstable();
+        let mut order: Vec<u32> = Vec::with_capacity(boxes.len());
+        // The end of the group of which an item is the first; zero for the others.
+        let mut begun = vec![(0, 0); boxes.len()];
+        for alike in hashed.chunk_by(|a, b| a >> 32 == b >> 32) {
+            let begin = order.len();
+            order.extend(alike.iter().map(|hashed| *hashed as u32));
+            if alike.len() > 1 {
+                order[begin..].sort_unstable_by_key(|&i| (key(i), i));
+            }
+            let mut place = begin as u32;
+            for equal in order[begin..].chunk_by(|&a, &b| key(a) == key(b)) {
+                let end = place + equal.len() as u32;
+                begun[equal[0] as usize] = (place, end);
+                place = end;
+            }
+        }
+        begun.retain(|(_, end)| *end > 0);
+        Self { order, ranges: begun }
+    }
+
+    fn members(&self, group: u32) -> &[u32] {
+        let (begin, end) = self.ranges[group as usize];
+        &self.order[begin as usize..end as usize]
+    }
+}

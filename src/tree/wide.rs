@@ -1,0 +1,313 @@
+//! A tree of eight children, with what it holds in blocks of four: the binary one, collapsed.
+//!
+//! It is walked as the binary one is, by the same arithmetic on the same boxes, eight at a time. The loops over eight
+//! are plain ones that the compiler turns into vector instructions, and are compiled twice: for what every processor of
+//! the kind has, and for AVX2, chosen at run time. Both give the same bits, since no product is ever fused with a sum.
+
+#![allow(
+    clippy::inline_always,
+    reason = "what is not inlined is not compiled for the instruction set that was chosen"
+)]
+
+use super::lanes::{Lanes, Task, with_best};
+use super::space::{Entered, SLACK, Space};
+use super::{Bounds, Line};
+use std::array::from_fn;
+use std::ops::Range;
+
+/// Eight children: their boxes, lane by lane, and where they go on.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Node {
+    // By axis, then by side: the smallest coordinates, the largest.
+    pub(super) sides: [[[f32; 8]; 2]; 3],
+    // An inner child: its index in `nodes`. A leaf: see `leaf`.
+    pub(super) child: [u32; 8],
+}
+
+/// A child that is a leaf of 1 to 4 blocks: their number less one, and the first of them.
+const LEAF: u32 = 1 << 31;
+
+/// Blocks of one leaf at most.
+pub(super) const BLOCKS: usize = 4;
+
+impl Node {
+    /// Boxes that no line meets.
+    pub(super) const EMPTY: Self =
+        Self { sides: [[[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]]; 3], child: [LEAF; 8] };
+}
+
+/// The reference to a leaf.
+pub(super) fn leaf(first: usize, blocks: usize) -> u32 {
+    LEAF | (blocks as u32 - 1) << 29 | first as u32
+}
+
+/// The blocks of a leaf.
+#[inline(always)]
+fn blocks_of(leaf: u32) -> Range<usize> {
+    let first = (leaf & 0x1fff_ffff) as usize;
+    first..first + (leaf >> 29 & 3) as usize + 1
+}
+
+/// The numbers of four items; [`EMPTY`] where there are fewer.
+pub(crate) type Numbers = [u32; 4];
+
+/// No item.
+pub(crate) const EMPTY: u32 = u32::MAX;
+
+/// A tree over blocks of four items.
+#[derive(Debug, Clone)]
+pub(crate) struct Wide {
+    space: Space,
+    nodes: Vec<Node>,
+    root: u32,
+}
+
+/// What is done with the leaves.
+pub(crate) trait Visit {
+    /// Whether leaves are told by growing s, roughly.
+    const BY_S: bool;
+
+    /// Looks at some blocks, with the limit of s so far, and returns the new one; a negative one ends the walk.
+    fn look<L: Lanes>(&mut self, lanes: L, blocks: Range<usize>, limit: f64) -> f64;
+}
+
+impl Wide {
+    /// Over items with these boxes, which must be finite; and the items' numbers, block by block.
+    pub(crate) fn build(boxes: &[Bounds]) -> (Self, Vec<Numbers>) {
+        let space = Space::around(boxes);
+        if boxes.is_empty() {
+            return (Self { space, nodes: Vec::new(), root: LEAF }, Vec::new());
+        }
+        let (nodes, root, blocks) = super::collapse::collapse(&space, boxes);
+        (Self { space, nodes, root }, blocks)
+    }
+
+    /// The box of all items.
+    pub(crate) fn bounds(&self) -> Bounds {
+        self.space.bounds
+    }
+
+    /// A length below the widening of each box and above the rounding of what is in it, as long as no line starts more than
+    /// 1e7 times the size of all away.
+    pub(crate) fn grain(&self) -> f64 {
+        0.1 * self.space.pad()
+    }
+
+    /// Bytes that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>()
+    }
+
+    /// The beginning of a walk; none for a line that meets nothing.
+    #[inline]
+    pub(crate) fn enter(&self, line: &Line, s_max: f64) -> Option<Entered> {
+        self.space.enter(line, s_max)
+    }
+
+    /// Tells all blocks that may hold something that the line meets at 0 < s < `s_max`. Returns the last limit.
+    #[inline]
+    pub(crate) fn walk<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
+        with_best(Walk { tree: self, entered, s_max, visit })
+    }
+
+    /// The same without the best instruction set.
+    #[cfg(test)]
+    pub(crate) fn walk_plainly<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
+        walk_on(super::lanes::Plain, self, entered, s_max, visit)
+    }
+}
+
+/// A walk to be done.
+struct Walk<'a, V> {
+    tree: &'a Wide,
+    entered: Entered,
+    s_max: f64,
+    visit: &'a mut V,
+}
+
+impl<V: Visit> Task for Walk<'_, V> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> f64 {
+        let Self { tree, entered, s_max, visit } = self;
+        walk_on(lanes, tree, entered, s_max, visit)
+    }
+}
+
+#[inline(always)]
+fn walk_on<L: Lanes, V: Visit>(lanes: L, tree: &Wide, mut walk: Entered, s_max: f64, visit: &mut V) -> f64 {
+    let mut limit = s_max;
+    let mut open = Open::new();
+    let mut at = tree.root;
+    loop {
+        let follow = if at & LEAF == 0 {
+            descend::<L, V>(lanes, &walk, &tree.nodes[at as usize], &mut open)
+        } else {
+            let before = limit;
+            limit = visit.look(lanes, blocks_of(at), limit);
+            if limit != before {
+                if limit < 0.0 {
+                    return limit;
+                }
+                walk.limit(limit);
+            }
+            None
+        };
+        let Some(follow) = follow.or_else(|| open.pop(walk.t_max)) else { return limit };
+        at = follow;
+    }
+}
+
+/// The child that comes next, if the line meets any; the others stay open.
+#[inline(always)]
+fn descend<L: Lanes, V: Visit>(lanes: L, walk: &Entered, node: &Node, open: &mut Open) -> Option<u32> {
+    let (near, mut met) = entries(lanes, walk, node);
+    if met == 0 {
+        return None;
+    }
+    // Most often few are met.
+    let one = next(&mut met);
+    if met == 0 {
+        return Some(node.child[one]);
+    }
+    let two = next(&mut met);
+    let (a, b) = (told(&near, node, one), told(&near, node, two));
+    if met == 0 {
+        open.push(a.max(b));
+        return Some(a.min(b) as u32);
+    }
+    let mut some = [a, b, 0, 0, 0, 0, 0, 0];
+    let mut count = 2;
+    while met != 0 {
+        let lane = next(&mut met);
+        some[count & 7] = told(&near, node, lane);
+        count += 1;
+    }
+    if V::BY_S {
+        far_to_near(&mut some, count);
+    }
+    for place in 0..count - 1 {
+        open.push(some[place & 7]);
+    }
+    Some(some[(count - 1) & 7] as u32)
+}
+
+/// Where the line enters each child, and which it enters before the limit.
+#[inline(always)]
+fn entries<L: Lanes>(lanes: L, walk: &Entered, node: &Node) -> ([f32; 8], u32) {
+    let start = walk.start.to_array();
+    let inverse = walk.inverse.to_array();
+    let mut near = [0.0_f32; 8];
+    let mut far = [f32::MAX; 8];
+    for axis in 0..3 {
+        let back = usize::from(inverse[axis] < 0.0);
+        let sides = &node.sides[axis];
+        let (start, inverse) = (start[axis], inverse[axis]);
+        near = from_fn(|lane| {
+            let enter = (sides[back][lane] - start) * inverse;
+            if enter > near[lane] { enter } else { near[lane] }
+        });
+        far = from_fn(|lane| {
+            let leave = (sides[1 - back][lane] - start) * inverse;
+            if leave < far[lane] { leave } else { far[lane] }
+        });
+    }
+    let far = far.map(|far| {
+        let far = far * SLACK;
+        if far < walk.t_max { far } else { walk.t_max }
+    });
+    (near, lanes.at_most_8(near, far))
+}
+
+/// The lowest of the children that are left.
+#[inline(always)]
+fn next(met: &mut u32) -> usize {
+    let lane = met.trailing_zeros() as usize & 7;
+    *met &= *met - 1;
+    lane
+}
+
+/// A child with its entry before it: no entry is negative, so that they are ordered as their bits are.
+#[inline(always)]
+fn told(near: &[f32; 8], node: &Node, lane: usize) -> u64 {
+    u64::from(near[lane].to_bits()) << 32 | u64::from(node.child[lane])
+}
+
+/// Puts the nearest last.
+#[inline(always)]
+fn far_to_near(some: &mut [u64; 8], count: usize) {
+    for end in 1..count {
+        let moved = some[end & 7];
+        let mut place = end;
+        while place > 0 && some[(place - 1) & 7] < moved {
+            some[place & 7] = some[(place - 1) & 7];
+            place -= 1;
+        }
+        some[place & 7] = moved;
+    }
+}
+
+/// Children still to be visited, with their entries; beyond what most walks need, on the heap.
+struct Open {
+    last: [u64; HERE],
+    count: usize,
+    before: Vec<u64>,
+}
+
+const HERE: usize = 32;
+
+impl Open {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { last: [0; HERE], count: 0, before: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, told: u64) {
+        if self.count == HERE {
+            self.put_away();
+        }
+        self.last[self.count % HERE] = told;
+        self.count += 1;
+    }
+
+    /// The last of them that is entered before the limit.
+    #[inline(always)]
+    fn pop(&mut self, t_max: f32) -> Option<u32> {
+        loop {
+            if self.count == 0 && !self.fetch() {
+                return None;
+            }
+            self.count -= 1;
+            let told = self.last[self.count % HERE];
+            if f32::from_bits((told >> 32) as u32) <= t_max {
+                return Some(told as u32);
+            }
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn put_away(&mut self) {
+        self.before.extend_from_slice(&self.last);
+        self.count = 0;
+    }
+
+    /// Whether there were any that had been put away.
+    #[inline(always)]
+    fn fetch(&mut self) -> bool {
+        !self.before.is_empty() && self.fetch_some()
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn fetch_some(&mut self) -> bool {
+        let rest = self.before.len() - HERE;
+        self.last.copy_from_slice(&self.before[rest..]);
+        self.before.truncate(rest);
+        self.count = HERE;
+        true
+    }
+}
