@@ -29,7 +29,7 @@ const HALVES: f64 = 0.6;
 /// The part of a neighbour's doubts that is a pixel's own.
 const DOUBT: f64 = 0.5;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
-const SAFETY: f64 = 1.3;
+const SAFETY: f64 = 1.6;
 /// The error of a rule over wavelengths, in parts of its difference from that with half of them.
 const RULES: f64 = 0.25;
 /// The part of the tolerance that may go to the wavelengths.
@@ -70,9 +70,8 @@ impl Uncertainty {
 /// A pixel as far as it is known.
 #[derive(Debug, Clone, Copy)]
 struct Pixel {
-    // The mean of the samples at its number of wavelengths, and how many those are.
+    // By the last pass: with those before it, which were coarser, it would be worse.
     xyz: DVec3,
-    alike: u32,
     // Standard deviation of all its samples, XYZ, and their mean.
     spread: DVec3,
     mean: DVec3,
@@ -99,14 +98,8 @@ impl Pixel {
         let squares = |of: &Self| of.spread * of.spread + of.mean * of.mean;
         let variance = (squares(before).lerp(squares(self), part) - mean * mean).max(DVec3::ZERO);
         let spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
-        let (xyz, alike) = if before.wavelengths == self.wavelengths {
-            let alike = before.alike + self.alike;
-            (before.xyz.lerp(self.xyz, f64::from(self.alike) / f64::from(alike)), alike)
-        } else {
-            (self.xyz, self.alike)
-        };
-        let unsettled = self.unsettled.max(swing(development, xyz, spread, self.samples));
-        Self { xyz, alike, spread, mean, unsettled, taken, ..*self }
+        let unsettled = self.unsettled.max(swing(development, self.xyz, spread, self.samples));
+        Self { spread, mean, unsettled, taken, ..*self }
     }
 
     /// As many wavelengths as it needs: the error of a rule falls with the square of their number.
@@ -301,7 +294,7 @@ impl Pass<'_> {
         } else {
             0.0
         };
-        let (mean, alike, taken) = (xyz, samples, samples);
-        Pixel { xyz, alike, spread, mean, unsettled, unresolved, samples, wavelengths: N as u32, taken }
+        let (mean, taken) = (xyz, samples);
+        Pixel { xyz, spread, mean, unsettled, unresolved, samples, wavelengths: N as u32, taken }
     }
 }
