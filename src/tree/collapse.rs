@@ -11,11 +11,13 @@ use obvhs::BvhBuildParams;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use smallvec::SmallVec;
 
-/// What a node costs, in blocks.
+/// What a node costs, in blocks. It takes about as long as one; but blocks that are not full cost memory, and so time:
+/// with 0.8 the tree takes 66 bytes a triangle, with 1.7 61, with 2.5 57, and is the faster the smaller it is.
 const NODE: f32 = 2.5;
 
 /// The tree over these boxes, its root, and what its blocks hold.
 pub(super) fn collapse(space: &Space, boxes: &[Bounds]) -> (Vec<Node>, u32, Vec<Numbers>) {
+    // Fours stay together in whatever comes below: blocks are fuller, and there is less to weigh.
     let params = BvhBuildParams {
         max_prims_per_leaf: 4,
         collapse_traversal_cost: 8.0,

@@ -144,6 +144,8 @@ impl Entered {
 
     #[inline]
     pub(super) fn limit(&mut self, s_max: f64) {
-        self.t_max = ((s_max - self.first) * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
+        // More than the rounding of s and of the first, which are large where the line starts far away.
+        let s = s_max - self.first + 4.0 * f64::EPSILON * s_max;
+        self.t_max = (s * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
     }
 }

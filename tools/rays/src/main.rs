@@ -1,5 +1,9 @@
-//! Single rays through a large mesh on one core: the tree of eight children, as the program walks it, beside the binary
-//! one with a scalar test. Runs of both alternate; what is printed are medians.
+//! Single rays through a large mesh on one core: the tree of eight children, as the program walks it, beside a binary
+//! one with the same test of one triangle after the other. Both take turns; what is printed are medians.
+//!
+//!     cargo run --release --manifest-path tools/rays/Cargo.toml
+//!
+//! Arguments: how often the icosphere is divided (8), runs (7), one set alone (primary, incoherent, bounce, shadow).
 
 mod mesh;
 mod rays;
@@ -15,6 +19,7 @@ use terrell::triangles::{Meeting, Sheared, Triangles};
 /// The binary tree with a scalar test: what the program did before.
 struct Binary<'a> {
     triangles: &'a Triangles,
+    mesh: &'a Mesh,
     tree: Tree,
 }
 
@@ -24,12 +29,12 @@ impl<'a> Binary<'a> {
         let boxes: Vec<Bounds> = (mesh.triangles.iter())
             .map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3())))
             .collect();
-        Self { triangles, tree: Tree::build(&boxes) }
+        Self { triangles, mesh, tree: Tree::build(&boxes) }
     }
 
     #[inline(always)]
     fn meet(&self, line: &Sheared, triangle: u32, limit: f64) -> Option<Meeting> {
-        let mesh: &Mesh = &self.triangles.mesh;
+        let mesh = self.mesh;
         let corners = mesh.triangles[triangle as usize].map(|i| &mesh.positions[i as usize]);
         let (s, weights) = line.meet(corners.map(AsRef::as_ref))?;
         (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })

@@ -38,7 +38,7 @@ pub fn ball_in_room(level: u32) -> Mesh {
 fn height(p: DVec3) -> f64 {
     (0..4).map(|i| (f64::from(1 << (2 * i)), i)).fold(2.0, |sum, (wave, i)| {
         let q = p * (3.0 * wave) + f64::from(i);
-        sum + 0.3 / wave.powf(0.9) * (q.x.sin() * q.y.cos() + q.z.sin())
+        sum + 0.3 / libm::pow(wave, 0.9) * (libm::sin(q.x) * libm::cos(q.y) + libm::sin(q.z))
     })
 }
 
