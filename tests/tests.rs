@@ -6,6 +6,7 @@ mod boost;
 mod cli;
 mod clockwork;
 mod course;
+mod crowd;
 mod delay;
 mod difference;
 mod doppler;

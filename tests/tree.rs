@@ -107,7 +107,7 @@ proptest! {
             }
             let hit = moved.world.nearest(&ray);
             prop_assert_eq!(hit.map(|hit| hit.s).is_some(), nearest.is_some());
-            prop_assert_eq!(moved.world.blocked(&ray, None, f64::INFINITY), nearest.is_some());
+            prop_assert_eq!(moved.world.blocked(&ray, None, f64::INFINITY, None), nearest.is_some());
             if let (Some(hit), Some(nearest)) = (hit, nearest) {
                 prop_assert!((hit.s / nearest - 1.0).abs() < 1e-7);
                 let spot = hit.spot(&ray);

@@ -43,6 +43,7 @@ pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
 
 /// The same with the methods of the light loop chosen by hand.
 pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
+    let lit = &lit.seen_from(view.tetrad.event);
     match sampling.wavelengths {
         0..=3 => expose_with::<3>(lit, view, sampling),
         4..=8 => expose_with::<8>(lit, view, sampling),
@@ -85,7 +86,7 @@ fn phases(samples: u32) -> Vec<f64> {
 
 /// What stands first in the way at each pixel's centre.
 pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
-    let lit = scene.lit();
+    let lit = scene.lit().seen_from(view.tetrad.event);
     let first =
         |column: usize, row: usize| lit.first(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)));
     by_pixel(width, height, first)

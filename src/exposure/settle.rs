@@ -132,6 +132,7 @@ pub fn expose_settled(
     development: &Development,
     tolerance: f64,
 ) -> Settled {
+    let lit = &lit.seen_from(view.tetrad.event);
     let size = (sampling.width as usize, sampling.height as usize);
     let rules = Rules::default();
     let passes: Vec<OnceLock<Pass<'_>>> = (0..4 * (1 + MOST.ilog2())).map(|_| OnceLock::new()).collect();

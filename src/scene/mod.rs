@@ -74,6 +74,7 @@ impl Scene {
     pub fn lit(&self) -> Lit<'_> {
         Lit {
             world: &self.world,
+            crowd: None,
             surfaces: &self.surfaces,
             media: &self.media,
             lamps: &self.lamps,

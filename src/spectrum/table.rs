@@ -128,7 +128,7 @@ mod tests {
         let broad = [(400.0, 0.0), (500.0, 2.0), (600.0, 0.0)];
         assert_eq!(table(&broad), Some(100.0));
         let sharp = [(400.0, 0.0), (500.0, 2.0), (540.0, 1.2), (544.0, 3.2), (550.0, 1.2), (600.0, 0.0)];
-        assert_eq!(table(&sharp), Some(5.0));
+        assert!((table(&sharp).unwrap() - 8.0).abs() < 1e-9);
         let ripple = [(400.0, 1.0), (500.0, 1.1), (501.0, 1.0), (700.0, 4.0)];
         assert_eq!(table(&ripple), None);
     }

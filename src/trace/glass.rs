@@ -241,7 +241,7 @@ impl Lit<'_> {
         let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
         let mut crossed: Vec<(u32, bool)> = Vec::new();
         let mut contact = None;
-        self.world.until(&ray, None, 2.0 * reach, |hit| {
+        self.world.until(&ray, None, 2.0 * reach, self.crowd.as_ref(), |hit| {
             let Some(surface) = self.surfaces.get(hit.surface()) else { return false };
             let spot = hit.spot(&ray);
             let own = (hit.surface() == seen.hit.surface()).then_some(medium);

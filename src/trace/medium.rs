@@ -133,7 +133,7 @@ impl Lit<'_> {
     /// The bodies of glass around the start of a ray: those whose nearest surface is seen from inside.
     fn inside_at(&self, ray: &SightRay) -> Inside {
         let mut nearest: Vec<(u32, f64, bool)> = Vec::new();
-        self.world.until(ray, None, f64::INFINITY, |hit| {
+        self.world.until(ray, None, f64::INFINITY, self.crowd.as_ref(), |hit| {
             let medium = self.surfaces.get(hit.surface()).and_then(Surface::medium);
             let Some(medium) = medium else { return false };
             let outside = hit.spot(ray).outside;

@@ -20,7 +20,7 @@ use crate::scene::Sky;
 use crate::spacetime::{Doppler, Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
-use crate::world::{Departure, Hit, Spot, World};
+use crate::world::{Crowd, Departure, Hit, Spot, World};
 use glam::DVec3;
 use medium::Inside;
 
@@ -53,10 +53,12 @@ impl Effects {
 }
 
 /// All that light needs to know.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Lit<'a> {
     /// The bodies.
     pub world: &'a World,
+    /// Which of them a ray can meet, where they have many velocities: see [`Self::seen_from`].
+    pub crowd: Option<Crowd>,
     /// Surfaces, by the numbers that hits give.
     pub surfaces: &'a [Surface],
     /// What fills closed bodies of glass, by the numbers that their surfaces give.
@@ -234,6 +236,12 @@ struct Gathered<'g, const N: usize> {
 }
 
 impl Lit<'_> {
+    /// The same, made ready for rays to one event; for others it is right as well.
+    #[must_use]
+    pub fn seen_from(&self, event: Event) -> Self {
+        Self { crowd: self.world.crowd(event), ..self.clone() }
+    }
+
     /// The light that arrives along a sight ray.
     pub fn seen<const N: usize>(&self, ray: &SightRay, wavelengths: &Wavelengths<N>) -> Light<N> {
         self.seen_within(ray, Cone::default(), wavelengths)
@@ -264,7 +272,7 @@ impl Lit<'_> {
         let mut ray = *ray;
         let mut from = None;
         for _ in 0..MOST_VEILS {
-            let hit = self.world.nearest_from(&ray, from.as_ref())?;
+            let hit = self.world.nearest_from(&ray, from.as_ref(), self.crowd.as_ref())?;
             let spot = hit.spot(&ray);
             let look = Look { hit: &hit, spot: &spot, radius: 0.0 };
             let veil = self.surfaces.get(hit.surface()).and_then(|surface| surface.veil.as_ref());
@@ -289,7 +297,7 @@ impl Lit<'_> {
         if gathered.caught.is_some() && leg.inside.is_empty() && path.throughput[0] > gathered.exit.0 {
             gathered.exit = (path.throughput[0], leg.wave);
         }
-        let Some(hit) = self.world.nearest_from(&leg.ray, leg.from) else {
+        let Some(hit) = self.world.nearest_from(&leg.ray, leg.from, self.crowd.as_ref()) else {
             return self.add_surroundings(leg, lanes, path, gathered);
         };
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };

@@ -116,7 +116,8 @@ impl Lit<'_> {
         if self.see_through {
             return self.passage_through(connection, from);
         }
-        (!self.world.blocked(&connection.ray, Some(from), connection.s_lamp)).then_some(Passage::CLEAR)
+        (!self.world.blocked(&connection.ray, Some(from), connection.s_lamp, self.crowd.as_ref()))
+            .then_some(Passage::CLEAR)
     }
 
     /// The same where surfaces may let light through.
@@ -125,20 +126,22 @@ impl Lit<'_> {
         let ray = &connection.ray;
         // An edge belongs to two triangles, and counts once.
         let mut met: Vec<(usize, f64)> = Vec::new();
-        let blocked = self.world.until(ray, Some(from), connection.s_lamp, |hit: Hit<'_>| {
-            let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
-            if !surface.lets_through() {
-                return true;
-            }
-            let same =
-                |(number, s): &(usize, f64)| *number == hit.surface() && (s - hit.s).abs() <= 1e-12 * s.abs();
-            if met.iter().any(same) {
-                return false;
-            }
-            met.push((hit.surface(), hit.s));
-            let spot = hit.spot(ray);
-            passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
-        });
+        let blocked =
+            self.world.until(ray, Some(from), connection.s_lamp, self.crowd.as_ref(), |hit: Hit<'_>| {
+                let Some(surface) = self.surfaces.get(hit.surface()) else { return true };
+                if !surface.lets_through() {
+                    return true;
+                }
+                let same = |(number, s): &(usize, f64)| {
+                    *number == hit.surface() && (s - hit.s).abs() <= 1e-12 * s.abs()
+                };
+                if met.iter().any(same) {
+                    return false;
+                }
+                met.push((hit.surface(), hit.s));
+                let spot = hit.spot(ray);
+                passage.take(surface, &Look { hit: &hit, spot: &spot, radius: 0.0 })
+            });
         (!blocked).then_some(passage)
     }
 

@@ -3,9 +3,11 @@
 //! This is the only place where rays pass between the lab and the rest frames of bodies. A ray enters a rest
 //! frame with the limit of s that the frames before it have left; no event is ever transformed back to be compared.
 
+mod crowd;
 mod hit;
 mod placed;
 
+pub use crowd::Crowd;
 pub use hit::{Departure, Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
@@ -108,26 +110,65 @@ pub struct World {
 }
 
 impl World {
-    /// The first body that the ray meets: the smallest s over all rest frames.
-    pub fn nearest(&self, ray: &SightRay) -> Option<Hit<'_>> {
-        self.nearest_from(ray, None)
+    /// What tells which of many rest frames a ray can meet, fastest for rays to this event; none where they are few.
+    pub fn crowd(&self, event: Event) -> Option<Crowd> {
+        Crowd::around(&self.frames, event)
     }
 
-    /// The same for a ray that leaves a body.
-    pub fn nearest_from(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Option<Hit<'_>> {
-        let mut nearest: Option<Hit<'_>> = None;
+    /// Calls `visit` with every rest frame that a ray may meet, the limit of s so far, which it returns, or a negative one to end.
+    #[inline]
+    fn ask<'w>(
+        &'w self,
+        crowd: Option<&Crowd>,
+        ray: &SightRay,
+        s_max: f64,
+        mut visit: impl FnMut(&'w RestFrame, f64) -> f64,
+    ) -> f64 {
+        if let Some(crowd) = crowd {
+            return crowd.walk(ray, s_max, |number, limit| visit(&self.frames[number as usize], limit));
+        }
+        let mut limit = s_max;
         for rest in &self.frames {
-            let s_max = nearest.map_or(f64::INFINITY, |hit| hit.s);
-            if let Some((number, met)) = rest.nearest(ray, from, s_max) {
-                nearest = Some(Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met });
+            limit = visit(rest, limit);
+            if limit < 0.0 {
+                break;
             }
         }
+        limit
+    }
+
+    /// The first body that the ray meets: the smallest s over all rest frames.
+    pub fn nearest(&self, ray: &SightRay) -> Option<Hit<'_>> {
+        self.nearest_from(ray, None, None)
+    }
+
+    /// The same for a ray that may leave a body.
+    pub fn nearest_from(
+        &self,
+        ray: &SightRay,
+        from: Option<&Departure<'_>>,
+        crowd: Option<&Crowd>,
+    ) -> Option<Hit<'_>> {
+        let mut nearest: Option<Hit<'_>> = None;
+        self.ask(crowd, ray, f64::INFINITY, |rest, limit| match rest.nearest(ray, from, limit) {
+            Some((number, met)) => {
+                nearest = Some(Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met });
+                met.s()
+            }
+            None => limit,
+        });
         nearest
     }
 
     /// Whether anything stands in the way at 0 < s < `s_max`, of a ray that may leave a body.
-    pub fn blocked(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> bool {
-        self.frames.iter().any(|rest| rest.any(ray, from, s_max))
+    pub fn blocked(
+        &self,
+        ray: &SightRay,
+        from: Option<&Departure<'_>>,
+        s_max: f64,
+        crowd: Option<&Crowd>,
+    ) -> bool {
+        self.ask(crowd, ray, s_max, |rest, limit| if rest.any(ray, from, s_max) { -1.0 } else { limit }) < 0.0
     }
 
     /// The surfaces of solids without end that an event is within.
@@ -146,8 +187,12 @@ impl World {
         ray: &SightRay,
         from: Option<&Departure<'_>>,
         s_max: f64,
+        crowd: Option<&Crowd>,
         mut enough: impl FnMut(Hit<'w>) -> bool,
     ) -> bool {
-        self.frames.iter().any(|rest| rest.until(ray, from, s_max, &mut enough))
+        let stops = |rest: &'w RestFrame, limit: f64| {
+            if rest.until(ray, from, s_max, &mut enough) { -1.0 } else { limit }
+        };
+        self.ask(crowd, ray, s_max, stops) < 0.0
     }
 }

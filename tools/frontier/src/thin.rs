@@ -115,7 +115,7 @@ pub fn wrong(size: f64, method: Method) -> f64 {
         let met = if method == Method::Ours {
             let k = rest_from_lab.boost().inverse() * FourVector::<Rest>::new(1.0, -sun);
             let from = spot.departure(hit.rest);
-            world.blocked(&SightRay { event: from.event, k }, Some(&from), f64::INFINITY)
+            world.blocked(&SightRay { event: from.event, k }, Some(&from), f64::INFINITY, None)
         } else {
             let start = method.start(spot.event.x, spot.facet_normal);
             let back = map.inverse();

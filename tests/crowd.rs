@@ -1,0 +1,104 @@
+//! Many bodies, each with a velocity of its own: asking only those that a ray can meet gives what asking all gives.
+
+use crate::support::{Body, Dice, Stage, ball, black, diffuse, light_from, plane, v};
+use glam::DVec3;
+use terrell::scene::Scene;
+use terrell::spacetime::{Event, FourVector, SightRay, Velocity};
+use terrell::world::Crowd;
+
+/// Balls that appear all round the event, near and far, slow and at γ = 1e4; one floor without end.
+fn crowded(dice: &mut Dice, count: usize, seen_from: Event) -> Scene {
+    let bodies = (0..count).map(|number| {
+        let distance = 3.0 * (40.0_f64).powf(dice.part());
+        let place = seen_from.x + dice.direction() * distance;
+        let velocity = match number % 4 {
+            0 => Velocity::from_gamma(1.0 + 1e4 * dice.part(), dice.direction()),
+            1 => dice.velocity(0.01),
+            _ => {
+                let beta = dice.between(0.1, 0.99);
+                dice.velocity(beta)
+            }
+        };
+        let radius = distance * dice.between(0.02, 0.2);
+        Body::of(ball(radius, DVec3::ZERO), diffuse(0.5)).at(seen_from.t - distance, place).moving(velocity)
+    });
+    let floor = Body::of(plane(v(0.0, -500.0, 0.0), v(0.1, 1.0, 0.2)), black());
+    Stage::of(bodies.chain([floor])).scene()
+}
+
+/// What is met first, whether anything is met, and how many are met at all.
+fn asked(
+    scene: &Scene,
+    ray: &SightRay,
+    s_max: f64,
+    crowd: Option<&Crowd>,
+) -> (Option<(u32, u64)>, bool, Vec<u32>) {
+    let world = &scene.world;
+    let nearest = world.nearest_from(ray, None, crowd).map(|hit| (hit.placed.body, hit.s.to_bits()));
+    let mut all = Vec::new();
+    world.until(ray, None, s_max, crowd, |hit| {
+        all.push(hit.placed.body);
+        false
+    });
+    all.sort_unstable();
+    (nearest, world.blocked(ray, None, s_max, crowd), all)
+}
+
+#[test]
+fn asking_whom_a_ray_can_meet_is_asking_all() {
+    let mut dice = Dice(71);
+    let mut met = 0;
+    for count in [8, 60, 400] {
+        for eye in [Event::ORIGIN, Event::new(1e6, v(3e5, -2e5, 7e5))] {
+            let scene = crowded(&mut dice, count, eye);
+            let crowd = scene.world.crowd(eye).unwrap();
+            for number in 0..1500 {
+                // From the event for which the boxes are made, and from others before and after.
+                let start = match number % 3 {
+                    0 => eye,
+                    1 => Event::new(eye.t + dice.between(-80.0, 0.0), eye.x + dice.in_cube() * 50.0),
+                    _ => Event::new(eye.t + dice.between(-500.0, 500.0), eye.x + dice.in_cube() * 200.0),
+                };
+                let frequency = 10.0_f64.powf(dice.between(-3.0, 3.0));
+                let n = dice.direction();
+                let ray = SightRay { event: start, k: FourVector::new(frequency, n * frequency) };
+                let s_max = dice.between(1.0, 100.0) / frequency;
+                let (fast, slow) =
+                    (asked(&scene, &ray, s_max, Some(&crowd)), asked(&scene, &ray, s_max, None));
+                assert_eq!(fast, slow, "{count} bodies, from {start:?} along {n}");
+                met += usize::from(slow.0.is_some_and(|(body, _)| (body as usize) < count));
+            }
+        }
+    }
+    assert!(met > 1000, "only {met}");
+}
+
+#[test]
+fn rays_at_the_rims_of_bodies_are_not_lost() {
+    let mut dice = Dice(72);
+    let eye = Event::new(-30.0, v(1.0, 2.0, 3.0));
+    let scene = crowded(&mut dice, 200, eye);
+    let crowd = scene.world.crowd(eye).unwrap();
+    for rest in &scene.world.frames {
+        let Some(bounds) = rest.placed[0].bounds() else { continue };
+        // A place within 1e-9 of the ball's rim, by the ball's own rest frame.
+        let (middle, radius) = (0.5 * (bounds.lo + bounds.hi), 0.5 * (bounds.hi - bounds.lo).x);
+        let at = rest.rest_from_lab * eye;
+        let toward = (at.x - middle).normalize();
+        let sin = radius / (at.x - middle).length();
+        for _ in 0..8 {
+            let side = (dice.direction().cross(toward)).normalize();
+            let touch = middle + radius * (1.0 - 1e-9) * (toward * sin + side * (1.0 - sin * sin).sqrt());
+            let left = Event::new(at.t - (at.x - touch).length(), touch);
+            let ray = light_from(rest.rest_from_lab.undo(left).x, eye);
+            let (fast, slow) = (asked(&scene, &ray, 1e9, Some(&crowd)), asked(&scene, &ray, 1e9, None));
+            assert_eq!(fast, slow);
+        }
+    }
+}
+
+#[test]
+fn few_rest_frames_have_no_tree() {
+    let scene = crowded(&mut Dice(73), 6, Event::ORIGIN);
+    assert!(scene.world.crowd(Event::ORIGIN).is_none());
+}
