@@ -9,7 +9,7 @@ use terrell::world::Crowd;
 /// Balls that appear all round the event, near and far, slow and at γ = 1e4; one floor without end.
 fn crowded(dice: &mut Dice, count: usize, seen_from: Event) -> Scene {
     let bodies = (0..count).map(|number| {
-        let distance = 3.0 * (40.0_f64).powf(dice.part());
+        let distance = 3.0 * libm::pow(40.0, dice.part());
         let place = seen_from.x + dice.direction() * distance;
         let velocity = match number % 4 {
             0 => Velocity::from_gamma(1.0 + 1e4 * dice.part(), dice.direction()),
@@ -59,7 +59,7 @@ fn asking_whom_a_ray_can_meet_is_asking_all() {
                     1 => Event::new(eye.t + dice.between(-80.0, 0.0), eye.x + dice.in_cube() * 50.0),
                     _ => Event::new(eye.t + dice.between(-500.0, 500.0), eye.x + dice.in_cube() * 200.0),
                 };
-                let frequency = 10.0_f64.powf(dice.between(-3.0, 3.0));
+                let frequency = libm::pow(10.0, dice.between(-3.0, 3.0));
                 let n = dice.direction();
                 let ray = SightRay { event: start, k: FourVector::new(frequency, n * frequency) };
                 let s_max = dice.between(1.0, 100.0) / frequency;

@@ -18,7 +18,7 @@ const DEEPEST: usize = 64;
 /// Bytes of one text.
 const LONGEST_TEXT: usize = 10_000;
 /// Values in all (keys are values too), each alias counted as what it stands for: the second reader writes them out.
-const MOST_VALUES: usize = 100_000;
+const MOST_VALUES: usize = 250_000;
 
 /// The tree of a YAML text, or none with the reasons reported.
 pub(crate) fn parse(source: &Source, text: &str, report: &mut Report) -> Option<Rc<Node>> {

@@ -12,7 +12,7 @@ use crate::scene::{Scene, placement};
 use crate::spacetime::{Course, Event, FourVector, Lab, Poincare, Rest, Velocity};
 use crate::spectrum::Source;
 use crate::surface::{Scatter, Surface};
-use crate::world::Form;
+use crate::world::{Form, Placed};
 
 /// How many roundings there are at most between what is written and a place in a rest frame.    Law: tests
 /// `edges::search::*`.
@@ -184,7 +184,7 @@ fn check_bodies(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut
 /// Lamps of the manifest: those of files rest with bodies, which are looked at above.
 fn check_lamps(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut Report) {
     let placed = scene.world.frames.iter().flat_map(|rest| &rest.placed);
-    let smallest = placed.map(|placed| placed.extent()).fold(f64::INFINITY, f64::min);
+    let smallest = placed.map(Placed::extent).fold(f64::INFINITY, f64::min);
     for light in manifest.lights.iter().filter(|light| !matches!(light.source, LightSource::Sun(_))) {
         let velocity = light.placement.velocity;
         let rest_from_lab = placement(&light.placement).rest_from_lab();
@@ -217,8 +217,8 @@ fn check_clocks(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut
     let of_lamps = scene.lamps.iter().map(|lamp| lamp.light.iter().map(|(course, _)| course));
     let frames = scene.world.frames.iter().map(|rest| &rest.rest_from_lab);
     let frames = frames.chain(scene.lamps.iter().map(|lamp| &lamp.rest_from_lab));
-    let way = |frame: &Poincare<Rest, Lab>| {
-        ends.iter().map(|observer| uncertain(frame, 0.0, *observer).way).fold(0.0, f64::max)
+    let way = |own: &Poincare<Rest, Lab>| {
+        ends.iter().map(|observer| uncertain(own, 0.0, *observer).way).fold(0.0, f64::max)
     };
     let known = frames.map(way).fold(0.0, f64::max);
     for course in of_surfaces.flatten().chain(of_lamps.flatten()) {
