@@ -32,6 +32,7 @@ fn glow_seen<const N: usize>(doppler: f64, kelvin: f64) -> DVec3 {
     let radiance = Source::new(&Spectrum::BlackBody(kelvin), 1.0);
     let surfaces = [Surface::glowing(Glow { radiance, paint: None })];
     let lit = Lit {
+        crowd: None,
         world: &world,
         surfaces: &surfaces,
         media: &[],
