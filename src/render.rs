@@ -179,13 +179,10 @@ pub fn white(scene: &Scene, plan: &Plan) -> f64 {
         White::Fixed(white) => return white,
         White::Auto { gain } => gain,
     };
-    let Sampling { width, height, .. } = plan.sampling;
-    let columns = width.min(METER_COLUMNS);
-    let rows = (u64::from(height) * u64::from(columns) / u64::from(width)).max(1) as u32;
-    let small = Sampling { width: columns, height: rows, samples: 1, ..plan.sampling };
+    let small = Sampling { samples: 1, ..plan.sampling.within(METER_COLUMNS) };
     let every = plan.exposures.len().div_ceil(METER_PICTURES).max(1);
     let luminances = plan.exposures.iter().step_by(every).flat_map(|exposure| {
-        let view = scene.observer.view(exposure.tau, columns, rows);
+        let view = scene.observer.view(exposure.tau, small.width, small.height);
         expose(scene, &view, &small).xyz.into_iter().map(|xyz| f64::from(xyz[1]))
     });
     meter(luminances).unwrap_or(1.0) / gain

@@ -1,9 +1,10 @@
 //! Many bodies, each with a velocity of its own: asking only those that a ray can meet gives what asking all gives.
 
-use crate::support::{Body, Dice, Stage, ball, black, diffuse, light_from, plane, v};
+use crate::support::{Body, Dice, Lantern, Stage, ball, black, black_body, diffuse, light_from, plane, v};
 use glam::DVec3;
 use terrell::scene::Scene;
 use terrell::spacetime::{Event, FourVector, SightRay, Velocity};
+use terrell::spectrum::Wavelengths;
 use terrell::world::Crowd;
 
 /// Balls that appear all round the event, near and far, slow and at γ = 1e4; one floor without end.
@@ -95,6 +96,27 @@ fn rays_at_the_rims_of_bodies_are_not_lost() {
             assert_eq!(fast, slow);
         }
     }
+}
+
+/// With shadows: rays that leave bodies for lamps, in the midst of the crowd and beyond it.
+#[test]
+fn light_is_the_same_with_and_without_the_tree() {
+    let mut dice = Dice(74);
+    let mut scene = crowded(&mut dice, 150, Event::ORIGIN);
+    let lamp = |place: DVec3, velocity| Lantern::at(0.0, place, black_body(6000.0)).moving(velocity).lamp();
+    scene.lamps =
+        vec![lamp(v(4.0, 6.0, -5.0), dice.velocity(0.9)), lamp(v(-80.0, 60.0, 9.0), dice.velocity(0.3))];
+    let (all, crowd) = (scene.lit(), scene.lit().seen_from(Event::ORIGIN));
+    assert!(all.crowd.is_none() && crowd.crowd.is_some());
+    let wavelengths = Wavelengths::<8>::new();
+    let mut bright = 0;
+    for _ in 0..4000 {
+        let ray = SightRay { event: Event::ORIGIN, k: FourVector::new(1.0, dice.direction()) };
+        let (fast, slow) = (crowd.seen(&ray, &wavelengths), all.seen(&ray, &wavelengths));
+        assert_eq!(fast.radiance, slow.radiance);
+        bright += usize::from(slow.radiance[4] > 0.0);
+    }
+    assert!(bright > 300, "only {bright}");
 }
 
 #[test]

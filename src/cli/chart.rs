@@ -44,21 +44,20 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
     changes.extend(super::size_change(args.size.as_deref())?);
     let (_, scene, mut plan) = prepare(&args.manifest, &changes, false)?;
-    let Sampling { width, height, .. } = plan.sampling;
     let number = args.exposure.unwrap_or(plan.exposures.len() / 2);
     let Some(exposure) = plan.exposures.get(number).copied() else {
         let hint = format!("they are numbered from 0 to {}", plan.exposures.len() - 1);
         return Err(Error::fault(Place::Command, format!("there is no exposure {number}"), hint));
     };
     let development = Development { white: white(&scene, &plan) };
-    if args.size.is_none() && width > WIDEST {
-        let rows = (u64::from(height) * u64::from(WIDEST) / u64::from(width)).max(1) as u32;
-        plan.sampling = Sampling { width: WIDEST, height: rows, ..plan.sampling };
+    if args.size.is_none() {
+        plan.sampling = plan.sampling.within(WIDEST);
     }
     let folder = args.out.as_ref().unwrap_or(&plan.folder);
     // A folder that cannot be written is found before all the work, not after it.
-    let trial = folder.join("chart.csv");
+    let trial = folder.join(".chart");
     write(&trial, "")?;
+    std::fs::remove_file(&trial).map_err(|error| Error::machine(&trial, "removing", error))?;
     let subject = Subject { scene: &scene, tau: exposure.tau, development };
     let samples = args.reference;
     let (reference, ..) = subject.expose(&chart::reference(&scene, &plan, samples));
@@ -77,7 +76,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     let Sampling { width, height, .. } = plan.sampling;
     let title = format!("{name}, exposure {number}, {width} x {height}: what it costs and what it gives");
     write(&folder.join("chart.svg"), &chart::svg(&title, &measured))?;
-    write(&trial, &chart::csv(&measured))?;
+    write(&folder.join("chart.csv"), &chart::csv(&measured))?;
     print(&summary(&measured, (samples, &doubt), folder))
 }
 

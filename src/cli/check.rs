@@ -35,18 +35,18 @@ const TRIED: usize = 3;
 
 /// Whether the wavelengths are enough, tried on small pictures; none where they are sure to be.
 fn wavelengths(scene: &Scene, plan: &Plan) -> Option<String> {
-    let Sampling { width, height, wavelengths, .. } = plan.sampling;
+    let wavelengths = plan.sampling.wavelengths;
     if !(4..64).contains(&wavelengths) || plan.tolerance.is_some() {
         return None;
     }
-    let columns = width.min(TRIED_COLUMNS);
-    let rows = (u64::from(height) * u64::from(columns) / u64::from(width)).max(1) as u32;
+    let small = Sampling { samples: 1, ..plan.sampling.within(TRIED_COLUMNS) };
     let development = Development { white: render::white(scene, plan) };
     let every = plan.exposures.len().div_ceil(TRIED).max(1);
     let views: Vec<_> = plan.exposures.iter().skip(every / 2).step_by(every).collect();
     let exposed = |wavelengths: u32| -> Vec<Negative> {
-        let sampling = Sampling { width: columns, height: rows, samples: 1, wavelengths, ..plan.sampling };
-        views.iter().map(|e| expose(scene, &scene.observer.view(e.tau, columns, rows), &sampling)).collect()
+        let sampling = Sampling { wavelengths, ..small };
+        let view = |tau: f64| scene.observer.view(tau, small.width, small.height);
+        views.iter().map(|exposure| expose(scene, &view(exposure.tau), &sampling)).collect()
     };
     let converged = exposed(64);
     let off = |wavelengths: u32| {

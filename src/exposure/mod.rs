@@ -27,6 +27,16 @@ pub struct Sampling {
     pub wavelengths: u32,
 }
 
+impl Sampling {
+    /// The same, of the same shape and at most so many columns wide.
+    #[must_use]
+    pub fn within(self, columns: u32) -> Self {
+        let width = self.width.min(columns);
+        let height = (u64::from(self.height) * u64::from(width) / u64::from(self.width)).max(1) as u32;
+        Self { width, height, ..self }
+    }
+}
+
 /// Steps by it visit 0 to 1 evenly, and in an order that has nothing to do with where samples lie.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
