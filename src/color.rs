@@ -3,7 +3,7 @@
 
 mod difference;
 
-pub use difference::{Lab, ciede2000};
+pub use difference::{Discrimination, Lab, ciede2000};
 
 use glam::{DMat3, DVec3};
 use std::sync::LazyLock;

@@ -40,19 +40,11 @@ impl Reconstruction {
     ///
     /// A Hammersley set, spread by the filter, with its mean at the centre; one sample is the centre itself.
     pub fn offsets(self, samples: u32) -> Vec<DVec2> {
-        self.offsets_moved(samples, (0.0, 0.0))
-    }
-
-    /// The same, each moved to and fro within the part of the pixel that it stands for, by `moved` (-1/2 to 1/2) of its width and
-    /// its height.
-    pub fn offsets_moved(self, samples: u32, moved: (f64, f64)) -> Vec<DVec2> {
         let half = 0.5 / f64::from(samples);
         let point = |i: u32| {
             let radical_inverse = f64::from(i.reverse_bits()) / 4_294_967_296.0;
-            let (side, other) = (f64::from(i & 1) - 0.5, f64::from(i >> 1 & 1) - 0.5);
-            let across = f64::from(i) / f64::from(samples) + half + 4.0 * half * side * moved.0;
-            let down = (radical_inverse + half).min(1.0 - half) + 4.0 * half * other * moved.1;
-            DVec2::new(self.quantile(across), self.quantile(down))
+            let across = f64::from(i) / f64::from(samples) + half;
+            DVec2::new(self.quantile(across), self.quantile((radical_inverse + half).min(1.0 - half)))
         };
         let mut offsets: Vec<DVec2> = (0..samples).map(point).collect();
         let mean = offsets.iter().sum::<DVec2>() / f64::from(samples);
@@ -60,6 +52,31 @@ impl Reconstruction {
             *offset -= mean;
         }
         offsets
+    }
+
+    /// Where the sample of this number lies, of a sequence that is spread evenly whichever power of two it stops at. From the
+    /// first to the fourth, and from each power of two to the next, the mean is the centre.
+    ///
+    /// Sobol's first two dimensions (SIAM J. Numer. Anal. 13(5), 1976). In each of the four columns (and rows) of a pixel they are
+    /// moved, by turns to one and to the other side, alike for all pixels of one `place` in squares of 4 by 4: there the samples of
+    /// one column of pixels lie in all sixteen parts of a pixel's width, and what is thin does not slip through.
+    pub fn scattered(self, number: u32, place: (u32, u32)) -> DVec2 {
+        let directions =
+            std::iter::successors(Some(1_u32 << 31), |direction| Some(direction ^ (direction >> 1)));
+        let chosen = directions.take(32).enumerate().filter(|(bit, _)| number >> bit & 1 == 1);
+        let down = chosen.fold(0, |down, (_, direction)| down ^ direction);
+        let part = |digits: u32, (moved, other): (u32, u32)| {
+            // Any digits that have nothing to do with one another.
+            let finer = (4 * moved + other + 1).wrapping_mul(0x9e37_79b9) >> 4;
+            let moved = [0, 2, 3, 1][moved as usize % 4] << 28 | finer;
+            let moved = if digits >> 30 & 1 == 1 { !moved } else { moved };
+            (f64::from(digits ^ (moved & 0x3fff_ffff)) + 0.5) / 4_294_967_296.0
+        };
+        let (column, row) = place;
+        DVec2::new(
+            self.quantile(part(number.reverse_bits(), (row, column))),
+            self.quantile(part(down, (column, row))),
+        )
     }
 }
 

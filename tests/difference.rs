@@ -2,7 +2,7 @@
 
 use crate::support::near;
 use glam::DVec3;
-use terrell::color::{Lab, ciede2000};
+use terrell::color::{Discrimination, Lab, ciede2000};
 
 const fn lab(l: f64, a: f64, b: f64) -> Lab {
     Lab { l, a, b }
@@ -48,4 +48,21 @@ fn white_grey_and_black_are_where_cielab_has_them() {
     near(Lab::of_rgb(DVec3::ZERO).l, 0.0, 1e-12);
     // Half lightness at the reflectance (66/116)^3.
     near(Lab::of_rgb(DVec3::splat((66.0_f64 / 116.0).powi(3))).l, 50.0, 1e-9);
+}
+
+#[test]
+fn small_steps_around_a_colour_look_as_different_as_ciede2000_says() {
+    let mut greatest: f64 = 0.0;
+    for (around, ..) in PAIRS.into_iter().chain([(lab(50.0, 0.0, 0.0), lab(0.0, 0.0, 0.0), 0.0)]) {
+        let near_it = Discrimination::around(around);
+        for (l, a, b) in
+            [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.5, -0.7, 0.9), (-0.3, 0.8, 0.6)]
+        {
+            let step = 1e-3;
+            let other = lab(around.l + step * l, around.a + step * a, around.b + step * b);
+            let off = near_it.distance(other) / ciede2000(around, other) - 1.0;
+            greatest = greatest.max(off.abs());
+        }
+    }
+    assert!(greatest < 2e-3, "{greatest}");
 }

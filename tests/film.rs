@@ -67,6 +67,41 @@ fn samples_lie_evenly_about_the_centre() {
     }
 }
 
+/// Of so many boxes of equal area, however long and narrow, each has one of the samples.
+#[test]
+fn scattered_samples_fill_all_boxes_wherever_they_stop() {
+    for place in [(0, 0), (1, 0), (2, 3), (3, 1)] {
+        for level in 0..=8 {
+            let samples: Vec<DVec2> =
+                (0..1 << level).map(|number| Reconstruction::Box.scattered(number, place) + 0.5).collect();
+            for across in 0..=level {
+                let (columns, rows) = (1_usize << across, 1_usize << (level - across));
+                let mut filled = vec![false; columns * rows];
+                for at in &samples {
+                    filled[(at.y * rows as f64) as usize * columns + (at.x * columns as f64) as usize] = true;
+                }
+                assert!(filled.iter().all(|filled| *filled), "{place:?}, {columns} x {rows}");
+            }
+            for filter in FILTERS.into_iter().filter(|_| level >= 2) {
+                let mean = (0..1 << level).map(|number| filter.scattered(number, place)).sum::<DVec2>();
+                near(mean.length() / f64::from(1 << level), 0.0, 1e-9);
+            }
+        }
+    }
+}
+
+/// What is thin and upright passes through no column of pixels between all samples.
+#[test]
+fn four_samples_of_four_pixels_lie_in_sixteen_columns() {
+    for column in 0..4 {
+        let mut filled = [false; 16];
+        for (row, number) in (0..4).flat_map(|row| (0..4).map(move |number| (row, number))) {
+            filled[((Reconstruction::Box.scattered(number, (column, row)).x + 0.5) * 16.0) as usize] = true;
+        }
+        assert_eq!(filled, [true; 16]);
+    }
+}
+
 #[test]
 fn constant_light_stays_constant_under_any_filter() {
     let sky = Body::new(&built(icosphere(1)), glowing(black_body(5000.0))).sized(10.0);

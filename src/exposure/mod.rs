@@ -66,7 +66,7 @@ pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
 fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
     let wavelengths = Wavelengths::<N>::new();
     let offsets = sampling.reconstruction.offsets(sampling.samples);
-    let phases = phases(sampling.samples);
+    let phases: Vec<f64> = (0..sampling.samples).map(phase).collect();
     let share = 1.0 / f64::from(sampling.samples);
     let spacing = share.sqrt();
     let expose_pixel = |column: usize, row: usize| {
@@ -89,9 +89,9 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
     Negative { width: sampling.width, height: sampling.height, xyz }
 }
 
-/// The phases of a pixel's samples: where colours are parted each takes other wavelengths.
-fn phases(samples: u32) -> Vec<f64> {
-    (0..samples).map(|i| ((f64::from(i) + 0.5) * GOLDEN).fract()).collect()
+/// The phase of a pixel's sample: where colours are parted each takes other wavelengths.
+fn phase(number: u32) -> f64 {
+    ((f64::from(number) + 0.5) * GOLDEN).fract()
 }
 
 /// What stands first in the way at each pixel's centre.

@@ -4,8 +4,8 @@
 //! enough. What is not settled is measured again, as finely as follows from that. Every pixel decides by itself and by what its
 //! neighbours were in the pass before, so the picture is the same on any number of threads.
 
-use super::{BRIGHTEST, Sampling, by_pixel, phases};
-use crate::color::{Lab, ciede2000};
+use super::{BRIGHTEST, Sampling, by_pixel, phase};
+use crate::color::{Discrimination, Lab};
 use crate::film::{Development, Negative};
 use crate::observer::View;
 use crate::spectrum::Wavelengths;
@@ -14,24 +14,28 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Samples of the first pass, and of the second where the first leaves doubts.
+/// Samples of the first pass; the others double them.
 const FIRST: u32 = 4;
-const SECOND: u32 = 16;
-/// How samples are moved within the share of the pixel that each stands for, in parts of it.
-const MOVES: [(f64, f64); 4] = [(-0.375, 0.125), (0.125, 0.375), (0.375, -0.125), (-0.125, -0.375)];
 /// Most samples of a pixel.
 const MOST: u32 = 1024;
-/// The error of the mean of n samples is about `SPREAD σ n^-3/4` where an edge crosses the pixel and they are spread evenly.
-/// (Of random samples it would be `σ n^-1/2`.)
-const SPREAD: f64 = 1.6;
+/// A pass has at most so many times the samples of the one before: the fewer there are, the less they say how many it takes.
+const GROWTH: f64 = 4.0;
+/// Footprints of textures are at most as wide as for so many samples: wider ones blur, which no sample tells.
+const SHARP: u32 = 16;
+/// How far the mean of n samples is off at an edge, at least, in parts of `σ n^-3/4`. (Of random samples it would be `σ n^-1/2`.)
+const SPREAD: f64 = 0.8;
 /// The same in parts of the difference between the means of two halves of the samples.
 const HALVES: f64 = 0.6;
-/// The part of a neighbour's doubts that is a pixel's own.
+/// So many columns and rows away what is met matters to a pixel that has been looked at but once.
+const REACH: usize = 2;
+/// The part of a neighbour's spread that is a pixel's own, once it has been looked at again.
 const DOUBT: f64 = 0.5;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
 const SAFETY: f64 = 1.6;
-/// The error of a rule over wavelengths, in parts of its difference from that with half of them.
-const RULES: f64 = 0.25;
+/// The error of a rule over wavelengths, in parts of its difference from that with half of them: where spectra are smooth, and where
+/// glass parts colours, so that a pixel sees but few of them.
+const RULES: f64 = 0.2;
+const RULES_PARTED: f64 = 0.5;
 /// The part of the tolerance that may go to the wavelengths.
 const RESOLVED: f64 = 0.4;
 
@@ -70,36 +74,24 @@ impl Uncertainty {
 /// A pixel as far as it is known.
 #[derive(Debug, Clone, Copy)]
 struct Pixel {
-    // By the last pass: with those before it, which were coarser, it would be worse.
-    xyz: DVec3,
-    // Standard deviation of all its samples, XYZ, and their mean.
+    sums: Sums,
+    // The standard deviation of its samples, XYZ.
     spread: DVec3,
-    mean: DVec3,
-    // Estimated errors by the samples and by the wavelengths.
-    unsettled: f64,
-    unresolved: f64,
-    // Those of the last pass.
-    samples: u32,
+    // How different the two halves of its samples look.
+    halves: f64,
     wavelengths: u32,
-    // All samples that were taken of it.
+    // All samples that were taken of it, also those of fewer wavelengths.
     taken: u32,
+    // What its samples may be off: as they say themselves, and as their neighbours' make it doubtful.
+    own: f64,
+    unsettled: f64,
+    // What its wavelengths may be off.
+    unresolved: f64,
 }
 
 impl Pixel {
     fn error(&self) -> f64 {
-        SAFETY * (self.unsettled + self.unresolved)
-    }
-
-    /// Measured again: no sample is forgotten, so that what few of them met still counts.
-    fn again(&self, before: &Self, development: &Development) -> Self {
-        let taken = before.taken + self.taken;
-        let part = f64::from(self.taken) / f64::from(taken);
-        let mean = before.mean.lerp(self.mean, part);
-        let squares = |of: &Self| of.spread * of.spread + of.mean * of.mean;
-        let variance = (squares(before).lerp(squares(self), part) - mean * mean).max(DVec3::ZERO);
-        let spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
-        let unsettled = self.unsettled.max(swing(development, self.xyz, spread, self.samples));
-        Self { spread, mean, unsettled, taken, ..*self }
+        self.unsettled + self.unresolved
     }
 
     /// As many wavelengths as it needs: the error of a rule falls with the square of their number.
@@ -112,14 +104,40 @@ impl Pixel {
         wavelengths
     }
 
-    /// How many samples it needs if it is so far from settled; none if it needs nothing more.
-    fn more(&self, unsettled: f64, tolerance: f64) -> Option<u32> {
-        let room = tolerance - self.unresolved.min(RESOLVED * tolerance);
-        let times = libm::pow((unsettled / room).max(1.0), 4.0 / 3.0);
-        let samples = ((f64::from(self.samples) * times).min(f64::from(MOST)) as u32).next_power_of_two();
-        let wavelengths = self.wavelengths_for(RESOLVED * tolerance);
-        let better = samples > self.samples || wavelengths > self.wavelengths;
-        (unsettled + self.unresolved > tolerance && better).then_some(samples)
+    /// How many samples and wavelengths it is to have next; none if it needs nothing more.
+    fn more(&self, error: f64) -> Option<(u32, u32)> {
+        let for_wavelengths = RESOLVED * error;
+        let room = error - self.unresolved.min(for_wavelengths);
+        let times = libm::pow((self.unsettled / room).max(1.0), 4.0 / 3.0).min(GROWTH);
+        let samples = ((f64::from(self.sums.samples) * times).ceil() as u32).next_power_of_two().min(MOST);
+        let wavelengths = self.wavelengths_for(for_wavelengths);
+        let better = samples > self.sums.samples || wavelengths > self.wavelengths;
+        (self.error() > error && better).then_some((samples, wavelengths))
+    }
+}
+
+/// Sums over samples, XYZ.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    xyz: DVec3,
+    squared: DVec3,
+    // Of the first half of the samples; both halves are evenly spread.
+    half: DVec3,
+    // By a rule of half as many wavelengths.
+    coarse: DVec3,
+    samples: u32,
+}
+
+impl Sums {
+    fn mean(&self) -> DVec3 {
+        self.xyz / f64::from(self.samples)
+    }
+
+    /// The standard deviation of the samples.
+    fn spread(&self) -> DVec3 {
+        let (mean, share) = (self.mean(), 1.0 / f64::from(self.samples));
+        let variance = (self.squared * share - mean * mean).max(DVec3::ZERO);
+        DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
     }
 }
 
@@ -133,96 +151,47 @@ pub fn expose_settled(
     tolerance: f64,
 ) -> Settled {
     let lit = &lit.seen_from(view.tetrad.event);
-    let size = (sampling.width as usize, sampling.height as usize);
-    let rules = Rules::default();
-    let passes: Vec<OnceLock<Pass<'_>>> = (0..4 * (1 + MOST.ilog2())).map(|_| OnceLock::new()).collect();
-    let pass = |samples: u32, variant: usize| Pass {
-        lit,
-        view,
-        development,
-        rules: &rules,
-        offsets: sampling.reconstruction.offsets_moved(samples, MOVES[variant]),
-        phases: phases(samples),
-    };
-    let measured = |number: usize, samples: u32, wavelengths: u32| {
-        let (column, row) = (number % size.0, number / size.0);
-        // Neighbours have different ones: what is thinner than a pixel then slips through few pixels, not through a row of them.
-        let variant = (column + 3 * row + column / 4 + row / 4) % 4;
-        let pass = passes[4 * samples.ilog2() as usize + variant].get_or_init(|| pass(samples, variant));
-        pass.measured((column, row), wavelengths)
-    };
-    let tolerance = tolerance / SAFETY;
+    let measuring = Measuring::new(lit, view, sampling, development);
     let wavelengths = if sampling.wavelengths == 3 { 3 } else { 16 };
-    let mut pixels =
-        by_pixel(sampling.width, sampling.height, |c, r| measured(r * size.0 + c, FIRST, wavelengths));
-    let mut open: Vec<(usize, u32)> = (0..pixels.len())
-        .into_par_iter()
-        .filter(|number| {
-            doubts(&pixels, size, *number, (2, 1.0), development) + pixels[*number].unresolved > tolerance
-        })
-        .map(|number| (number, SECOND))
-        .collect();
-    while !open.is_empty() {
-        let again = |(number, samples): &(usize, u32)| {
-            let before = &pixels[*number];
-            let finer = measured(*number, *samples, before.wavelengths_for(RESOLVED * tolerance));
-            finer.again(before, development)
+    let first = |column, row| measuring.pixel((column, row), None, FIRST, wavelengths);
+    let mut pixels = by_pixel(sampling.width, sampling.height, first);
+    let mut looked_at: Vec<usize> = (0..pixels.len()).collect();
+    loop {
+        let unsettled = |number: &usize| measuring.unsettled(&pixels, *number);
+        let unsettled: Vec<f64> = looked_at.par_iter().map(unsettled).collect();
+        for (number, unsettled) in looked_at.iter().zip(unsettled) {
+            pixels[*number].unsettled = unsettled;
+        }
+        let more = |number: usize| Some((number, pixels[number].more(tolerance / SAFETY)?));
+        let open: Vec<(usize, (u32, u32))> = looked_at.into_iter().filter_map(more).collect();
+        if open.is_empty() {
+            break;
+        }
+        let finer = |(number, (samples, wavelengths)): &(usize, (u32, u32))| {
+            measuring.pixel(measuring.place(*number), Some(&pixels[*number]), *samples, *wavelengths)
         };
-        let finer: Vec<Pixel> = open.par_iter().map(again).collect();
+        let finer: Vec<Pixel> = open.par_iter().map(finer).collect();
+        // What they have met may be near to others, too.
+        let mut near = vec![false; pixels.len()];
         for ((number, _), pixel) in open.iter().zip(finer) {
             pixels[*number] = pixel;
+            measuring.around(*number, REACH).for_each(|number| near[number] = true);
         }
-        let more = |(number, _): (usize, u32)| {
-            let pixel = &pixels[number];
-            let samples = pixel.more(doubts(&pixels, size, number, (1, DOUBT), development), tolerance)?;
-            Some((number, samples))
-        };
-        open = open.into_par_iter().filter_map(more).collect();
+        looked_at = (0..pixels.len()).filter(|number| near[*number]).collect();
     }
     let taken: f64 = pixels.iter().map(|pixel| f64::from(pixel.taken)).sum();
     Settled {
-        error: Uncertainty::of(pixels.iter().map(Pixel::error).collect()),
+        error: Uncertainty::of(pixels.iter().map(|pixel| SAFETY * (pixel.own + pixel.unresolved)).collect()),
         samples: taken / pixels.len().max(1) as f64,
         negative: Negative {
             width: sampling.width,
             height: sampling.height,
             xyz: pixels
                 .iter()
-                .map(|pixel| pixel.xyz.min(DVec3::splat(BRIGHTEST)).as_vec3().to_array())
+                .map(|pixel| pixel.sums.mean().min(DVec3::splat(BRIGHTEST)).as_vec3().to_array())
                 .collect(),
         },
     }
-}
-
-/// How far a pixel may be from settled: by its own samples, or by a part of what those of its neighbours, up to `reach` pixels away, would do to it. (A few
-/// samples may all miss an edge; and beside something very bright a little of it counts.)
-fn doubts(
-    pixels: &[Pixel],
-    (width, height): (usize, usize),
-    number: usize,
-    (reach, part): (usize, f64),
-    development: &Development,
-) -> f64 {
-    let (column, row) = (number % width, number / width);
-    let rows = row.saturating_sub(reach)..(row + reach + 1).min(height);
-    let columns = column.saturating_sub(reach)..(column + reach + 1).min(width);
-    let around = rows.flat_map(|r| columns.clone().map(move |c| r * width + c));
-    let own = &pixels[number];
-    let spread = around.map(|i| pixels[i].spread).fold(DVec3::ZERO, DVec3::max);
-    own.unsettled.max(swing(development, own.xyz, spread * part, own.samples))
-}
-
-/// How much a pixel changes, as it is shown, by what the mean of so many samples with a spread (XYZ) may be off.
-fn swing(development: &Development, xyz: DVec3, spread: DVec3, samples: u32) -> f64 {
-    if spread == DVec3::ZERO {
-        return 0.0;
-    }
-    let share = 1.0 / f64::from(samples);
-    let off = spread * (SPREAD * (share * share.sqrt()).sqrt());
-    let lab = |xyz: DVec3| Lab::of_rgb(development.display(xyz));
-    let whole = lab(xyz);
-    let to = |xyz: DVec3| ciede2000(whole, lab(xyz));
-    to(xyz + off).max(to((xyz - off).max(DVec3::ZERO)))
 }
 
 /// The rules over wavelengths that a pixel may need.
@@ -234,68 +203,142 @@ struct Rules {
     most: Wavelengths<64>,
 }
 
-/// One measurement of pixels.
-struct Pass<'a> {
+/// How pixels are measured.
+struct Measuring<'a> {
     lit: &'a Lit<'a>,
     view: &'a View,
+    sampling: &'a Sampling,
     development: &'a Development,
-    rules: &'a Rules,
-    offsets: Vec<DVec2>,
-    phases: Vec<f64>,
+    rules: Rules,
+    // The error of a rule in parts of its difference from a coarser one.
+    rules_off: f64,
+    // Of each place in squares of 4 by 4 pixels, by the logarithm of the number of samples: the later half of that many.
+    offsets: [[[OnceLock<Vec<DVec2>>; 1 + MOST.ilog2() as usize]; 4]; 4],
 }
 
-impl Pass<'_> {
-    fn measured(&self, place: (usize, usize), wavelengths: u32) -> Pixel {
-        match wavelengths {
-            3 => self.with(place, &self.rules.three),
-            16 => self.with(place, &self.rules.sixteen),
-            32 => self.with(place, &self.rules.more),
-            _ => self.with(place, &self.rules.most),
+impl<'a> Measuring<'a> {
+    fn new(lit: &'a Lit<'a>, view: &'a View, sampling: &'a Sampling, development: &'a Development) -> Self {
+        let parted = lit.media.iter().any(|medium| medium.index.disperses());
+        Self {
+            lit,
+            view,
+            sampling,
+            development,
+            rules: Rules::default(),
+            rules_off: if parted { RULES_PARTED } else { RULES },
+            offsets: Default::default(),
         }
     }
 
-    fn with<const N: usize>(&self, (column, row): (usize, usize), rule: &Wavelengths<N>) -> Pixel {
-        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-        let share = 1.0 / self.offsets.len() as f64;
-        let spacing = share.sqrt();
-        let (mut radiance, mut lines) = ([0.0; N], DVec3::ZERO);
-        let (mut xyz, mut squared) = (DVec3::ZERO, DVec3::ZERO);
-        let mut odd = DVec3::ZERO;
-        for (number, (offset, phase)) in self.offsets.iter().zip(&self.phases).enumerate() {
-            let (ray, cone) = self.view.sight(centre + *offset, spacing);
-            let light = self.lit.seen_within(&ray, Cone { phase: *phase, ..cone }, rule);
-            for (sum, value) in radiance.iter_mut().zip(light.radiance) {
-                *sum += value;
-            }
-            lines += light.lines;
-            let one = rule.xyz(&light.radiance) + light.lines;
-            xyz += one;
-            squared += one * one;
-            // By the parity of the bits of its number, which leaves both halves of the samples evenly spread.
-            if number.count_ones() % 2 == 1 {
-                odd += one;
-            }
+    /// A pixel with so many samples and wavelengths, of which those before are not taken again.
+    fn pixel(&self, place: (usize, usize), before: Option<&Pixel>, samples: u32, wavelengths: u32) -> Pixel {
+        match wavelengths {
+            3 => self.with(place, before, samples, &self.rules.three),
+            16 => self.with(place, before, samples, &self.rules.sixteen),
+            32 => self.with(place, before, samples, &self.rules.more),
+            _ => self.with(place, before, samples, &self.rules.most),
         }
-        xyz *= share;
-        let lab = |xyz: DVec3| Lab::of_rgb(self.development.display(xyz));
-        let whole = lab(xyz);
-        let variance = (squared * share - xyz * xyz).max(DVec3::ZERO);
-        let spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
-        let samples = self.offsets.len() as u32;
-        let unsettled = if spread == DVec3::ZERO {
-            0.0
-        } else {
-            let half = odd * (2.0 * share);
-            let halves = ciede2000(lab(half), lab(xyz * 2.0 - half));
-            swing(self.development, xyz, spread, samples).max(HALVES * halves)
-        };
-        let unresolved = if N > 3 {
-            let coarse = (rule.coarse_xyz(&radiance) + lines) * share;
-            RULES * ciede2000(whole, lab(coarse))
-        } else {
-            0.0
-        };
-        let (mean, taken) = (xyz, samples);
-        Pixel { xyz, spread, mean, unsettled, unresolved, samples, wavelengths: N as u32, taken }
+    }
+
+    fn with<const N: usize>(
+        &self,
+        (column, row): (usize, usize),
+        before: Option<&Pixel>,
+        samples: u32,
+        rule: &Wavelengths<N>,
+    ) -> Pixel {
+        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let set = (column % 4, row % 4);
+        let spacing = (1.0 / f64::from(samples.max(SHARP))).sqrt();
+        let known = before.filter(|before| before.wavelengths == N as u32);
+        let mut sums = known.map_or_else(Sums::default, |before| before.sums);
+        let taken = before.map_or(0, |before| before.taken) + samples - sums.samples;
+        while sums.samples < samples {
+            let numbers = sums.samples..FIRST.max(2 * sums.samples);
+            for (number, offset) in numbers.clone().zip(self.offsets(set, numbers.end)) {
+                if number == numbers.end / 2 {
+                    sums.half = sums.xyz;
+                }
+                let (ray, cone) = self.view.sight(centre + *offset, spacing);
+                let light = self.lit.seen_within(&ray, Cone { phase: phase(number), ..cone }, rule);
+                let one = rule.xyz(&light.radiance) + light.lines;
+                sums.xyz += one;
+                sums.squared += one * one;
+                sums.coarse += rule.coarse_xyz(&light.radiance) + light.lines;
+            }
+            sums.samples = numbers.end;
+        }
+        let (xyz, share) = (sums.mean(), 1.0 / f64::from(samples));
+        let seen = Discrimination::around(self.lab(xyz));
+        let spread = sums.spread();
+        let (mut halves, mut own) = (0.0, 0.0);
+        if spread != DVec3::ZERO {
+            halves = 2.0 * seen.distance(self.lab(sums.half * (2.0 * share)));
+            own = (HALVES * halves).max(self.swing(&seen, xyz, spread, samples));
+        }
+        let unresolved =
+            if N > 3 { self.rules_off * seen.distance(self.lab(sums.coarse * share)) } else { 0.0 };
+        Pixel { sums, spread, halves, wavelengths: N as u32, taken, own, unsettled: own, unresolved }
+    }
+
+    /// Where the later half of so many samples lie.
+    fn offsets(&self, set: (usize, usize), samples: u32) -> &[DVec2] {
+        self.offsets[set.1][set.0][samples.ilog2() as usize].get_or_init(|| {
+            let first = if samples == FIRST { 0 } else { samples / 2 };
+            let of = |number| self.sampling.reconstruction.scattered(number, (set.0 as u32, set.1 as u32));
+            (first..samples).map(of).collect()
+        })
+    }
+
+    fn place(&self, number: usize) -> (usize, usize) {
+        let width = self.sampling.width as usize;
+        (number % width, number / width)
+    }
+
+    /// The numbers of the pixels up to so many columns and rows away.
+    fn around(&self, number: usize, reach: usize) -> impl Iterator<Item = usize> + use<> {
+        let (width, height) = (self.sampling.width as usize, self.sampling.height as usize);
+        let (column, row) = self.place(number);
+        let columns = column.saturating_sub(reach)..(column + reach + 1).min(width);
+        let rows = row.saturating_sub(reach)..(row + reach + 1).min(height);
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    }
+
+    fn lab(&self, xyz: DVec3) -> Lab {
+        Lab::of_rgb(self.development.display(xyz))
+    }
+
+    /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far they lie apart,
+    /// or some `part` of how far those of pixels up to `reach` away do. (A few samples may all miss an edge; and beside something very
+    /// bright a little of it counts.)
+    fn unsettled(&self, pixels: &[Pixel], number: usize) -> f64 {
+        let own = &pixels[number];
+        let (reach, part) = if own.sums.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
+        let neighbours = self.around(number, reach).map(|number| pixels[number].spread * part);
+        let spread = neighbours.fold(own.spread, DVec3::max);
+        if spread == DVec3::ZERO {
+            return 0.0;
+        }
+        let (mut squared, mut count) = (0.0, 0.0);
+        for number in self.around(number, 1) {
+            let pixel = &pixels[number];
+            let samples = f64::from(pixel.sums.samples) / f64::from(own.sums.samples);
+            squared += pixel.halves * pixel.halves * samples * samples.sqrt();
+            count += 1.0;
+        }
+        let unsettled = own.own.max(HALVES * f64::sqrt(squared / count));
+        if spread == own.spread {
+            return unsettled;
+        }
+        let xyz = own.sums.mean();
+        unsettled.max(self.swing(&Discrimination::around(self.lab(xyz)), xyz, spread, own.sums.samples))
+    }
+
+    /// How different a pixel looks by what the mean of so many samples with a spread (XYZ) may be off.
+    fn swing(&self, seen: &Discrimination, xyz: DVec3, spread: DVec3, samples: u32) -> f64 {
+        let share = 1.0 / f64::from(samples);
+        let off = spread * (SPREAD * (share * share.sqrt()).sqrt());
+        let to = |xyz: DVec3| seen.distance(self.lab(xyz));
+        to(xyz + off).max(to((xyz - off).max(DVec3::ZERO)))
     }
 }
