@@ -32,10 +32,8 @@ const REACH: usize = 2;
 const DOUBT: f64 = 0.5;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
 const SAFETY: f64 = 1.6;
-/// The error of a rule over wavelengths, in parts of its difference from that with half of them: where spectra are smooth, and where
-/// glass parts colours, so that a pixel sees but few of them.
+/// The error of a rule over wavelengths, in parts of its difference from that with half of them.
 const RULES: f64 = 0.2;
-const RULES_PARTED: f64 = 0.5;
 /// The part of the tolerance that may go to the wavelengths.
 const RESOLVED: f64 = 0.4;
 
@@ -210,24 +208,13 @@ struct Measuring<'a> {
     sampling: &'a Sampling,
     development: &'a Development,
     rules: Rules,
-    // The error of a rule in parts of its difference from a coarser one.
-    rules_off: f64,
     // Of each place in squares of 4 by 4 pixels, by the logarithm of the number of samples: the later half of that many.
     offsets: [[[OnceLock<Vec<DVec2>>; 1 + MOST.ilog2() as usize]; 4]; 4],
 }
 
 impl<'a> Measuring<'a> {
     fn new(lit: &'a Lit<'a>, view: &'a View, sampling: &'a Sampling, development: &'a Development) -> Self {
-        let parted = lit.media.iter().any(|medium| medium.index.disperses());
-        Self {
-            lit,
-            view,
-            sampling,
-            development,
-            rules: Rules::default(),
-            rules_off: if parted { RULES_PARTED } else { RULES },
-            offsets: Default::default(),
-        }
+        Self { lit, view, sampling, development, rules: Rules::default(), offsets: Default::default() }
     }
 
     /// A pixel with so many samples and wavelengths, of which those before are not taken again.
@@ -276,8 +263,7 @@ impl<'a> Measuring<'a> {
             halves = 2.0 * seen.distance(self.lab(sums.half * (2.0 * share)));
             own = (HALVES * halves).max(self.swing(&seen, xyz, spread, samples));
         }
-        let unresolved =
-            if N > 3 { self.rules_off * seen.distance(self.lab(sums.coarse * share)) } else { 0.0 };
+        let unresolved = if N > 3 { RULES * seen.distance(self.lab(sums.coarse * share)) } else { 0.0 };
         Pixel { sums, spread, halves, wavelengths: N as u32, taken, own, unsettled: own, unresolved }
     }
 
