@@ -294,9 +294,8 @@ impl<'a> Measuring<'a> {
         Lab::of_rgb(self.development.display(xyz))
     }
 
-    /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far they lie apart,
-    /// or some `part` of how far those of pixels up to `reach` away do. (A few samples may all miss an edge; and beside something very
-    /// bright a little of it counts.)
+    /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far its samples lie apart,
+    /// or those of pixels near it. (A few samples may all miss an edge; and beside something very bright a little of it counts.)
     fn unsettled(&self, pixels: &[Pixel], number: usize) -> f64 {
         let own = &pixels[number];
         let (reach, part) = if own.sums.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
