@@ -281,3 +281,19 @@ fn tolerance_is_told_how_it_was_met_and_refuses_what_is_none() {
         assert!(said(&output).contains("tolerance"), "{}", said(&output));
     }
 }
+
+#[test]
+fn faults_of_flags_name_the_flags() {
+    for (flag, wrong, right) in [
+        ("--tolerance", "banana", "--tolerance 1"),
+        ("--tolerance", "-1", "--tolerance 1"),
+        ("--samples", "0", "--samples "),
+        ("--samples", "x", "--samples "),
+    ] {
+        let (_, output) = rendered(&["manifests/unseen.yaml", &format!("{flag}={wrong}")]);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(&format!("{flag}: `{wrong}`")) && !said.contains("--set"), "{said}");
+        assert!(said.contains(right), "{said}");
+    }
+}

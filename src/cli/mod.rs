@@ -230,7 +230,8 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
 }
 
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
-    let (_, scene, mut plan) = prepare(path, changes, args.exposure.is_none())?;
+    let (_, scene, mut plan) =
+        prepare(path, changes, args.exposure.is_none()).map_err(|error| named_as_flags(error, args))?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
     }
@@ -240,6 +241,25 @@ fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> R
     let chosen = chosen(args, plan.exposures.len())?;
     let mut progress = progress::Progress::start(&plan, chosen.len());
     render::render(&scene, &plan, chosen, |step| progress.show(&step))
+}
+
+/// Faults of what flags say, as faults of the flags and not of the keys that they stand for.
+fn named_as_flags(mut error: Error, args: &RenderArgs) -> Error {
+    let flags = [
+        ("size", args.size.is_some()),
+        ("samples", args.samples.is_some()),
+        ("tolerance", args.tolerance.is_some()),
+    ];
+    if let Error::Input(faults) = &mut error {
+        for (flag, _) in flags.into_iter().filter(|(_, given)| *given) {
+            let key = format!("--set picture.{flag}: ");
+            for fault in faults.iter_mut().filter(|fault| fault.what.starts_with(&key)) {
+                fault.what = fault.what.replacen(&key, &format!("--{flag}: "), 1);
+                fault.hint = fault.hint.replacen(&format!("{flag}: "), &format!("--{flag} "), 1);
+            }
+        }
+    }
+    error
 }
 
 /// The exposures that are asked for, of `count`.
