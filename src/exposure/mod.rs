@@ -37,9 +37,6 @@ impl Sampling {
     }
 }
 
-/// Steps by it visit 0 to 1 evenly, and in an order that has nothing to do with where samples lie.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
 /// What is brighter (cd/m²) is as bright as this: numbers in 32 bits, sRGB's among them, go no further.
 const BRIGHTEST: f64 = 1e37;
 
@@ -89,9 +86,15 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
     Negative { width: sampling.width, height: sampling.height, xyz }
 }
 
-/// The phase of a pixel's sample: where colours are parted each takes other wavelengths.
+/// The phase of a pixel's sample: where colours are parted each takes other wavelengths. Sobol's third dimension, as places in the
+/// pixel are the first two.
 fn phase(number: u32) -> f64 {
-    ((f64::from(number) + 0.5) * GOLDEN).fract()
+    let directions = std::iter::successors(Some((1_u32 << 31, 3_u32 << 30)), |(last, direction)| {
+        Some((*direction, direction ^ last ^ (last >> 2)))
+    });
+    let chosen = directions.take(32).enumerate().filter(|(bit, _)| number >> bit & 1 == 1);
+    let digits = chosen.fold(0x5555_5555, |digits, (_, (direction, _))| digits ^ direction);
+    (f64::from(digits) + 0.5) / 4_294_967_296.0
 }
 
 /// What stands first in the way at each pixel's centre.

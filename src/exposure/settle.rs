@@ -31,7 +31,7 @@ const REACH: usize = 2;
 /// The part of a neighbour's spread that is a pixel's own, once it has been looked at again.
 const DOUBT: f64 = 0.5;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
-const SAFETY: f64 = 1.6;
+const SAFETY: f64 = 1.7;
 /// The error of a rule over wavelengths, in parts of its difference from that with half of them.
 const RULES: f64 = 0.2;
 /// The part of the tolerance that may go to the wavelengths.

@@ -1,7 +1,8 @@
 //! Where an index depends on the wavelength each wavelength goes its own way.
 //!
-//! The observer's wavelengths are followed one by one, and others between them as many as it takes for neighbours to lie
-//! no more than a pixel apart, so that colours change continuously across a picture. Spectral lines are followed at
+//! The observer's wavelengths are followed one by one, as long as they hardly part. Where they do, each sample of a pixel follows others
+//! between them, as many as it takes for neighbours to lie no more than a pixel apart (over the samples of the pixel), so that
+//! colours change continuously across a picture and its samples tell how far it is settled. Spectral lines are followed at
 //! their own wavelength, wherever between the samples that is.
 
 use super::{Gathered, Light, Lit, Path};
@@ -33,9 +34,9 @@ const ALIKE_NM: f64 = 1e-3;
 const BROAD_NM: f64 = 2.0;
 /// Steps in which it has to be found.
 const STEPS: u32 = 12;
-/// The fewest wavelengths between two neighbours, if there are any: the colour functions bend.
-const LEAST_BETWEEN: f64 = 3.0;
-/// The most.
+/// Neighbours that part less than this (pixels) do not part.
+const TOGETHER: f64 = 0.2;
+/// The most wavelengths between two neighbours.
 const MOST_BETWEEN: f64 = 31.0;
 
 /// Light that is about to be parted.
@@ -59,35 +60,25 @@ impl Lit<'_> {
     ) {
         let Parted { wave, apart, follow } = parted;
         let mut single = |nm: f64| one(nm, path, wave, follow);
-        let mut values = [0.0; N];
         let mut all = Vec::new();
-        for (i, nm) in lanes.iter().enumerate() {
-            let (value, caught, _) = single(*nm);
-            values[i] = value;
-            all.extend(caught.into_iter().map(|caught| (*nm, caught)));
-        }
-        let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
-        let count = |apart: &f64| {
-            if *apart > 1.0 { (apart / samples).clamp(LEAST_BETWEEN, MOST_BETWEEN).ceil() as u32 } else { 0 }
+        let mut at = |nm: f64| {
+            let (value, lines, _) = single(nm);
+            all.extend(lines.into_iter().map(|line| (nm, line)));
+            value
         };
-        let counts: [u32; N] = std::array::from_fn(|i| apart.get(i).map_or(0, count));
-        if counts.iter().all(|count| *count == 0) {
-            for (sum, value) in gathered.light.radiance.iter_mut().zip(values) {
-                *sum += value;
+        if apart.iter().all(|apart| *apart < TOGETHER) {
+            for (sum, nm) in gathered.light.radiance.iter_mut().zip(lanes) {
+                *sum += at(*nm);
             }
         } else {
-            let mut between = |nm: f64| {
-                let (value, lines, _) = single(nm);
-                all.extend(lines.into_iter().map(|line| (nm, line)));
-                value
-            };
-            gathered.light.lines += ends(lanes, &values);
-            for (pair, count) in counts.iter().enumerate().take(N - 1) {
-                let (a, b) = ((lanes[pair], values[pair]), (lanes[pair + 1], values[pair + 1]));
-                gathered.light.lines += match count {
-                    0 => linear(a, b),
-                    _ => sampled((a.0, b.0), (*count, path.cone.phase), &mut between),
-                };
+            let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
+            let apart = |pair: usize| apart.get(pair).map_or(0.0, |apart| (apart / samples).ceil());
+            for pair in 0..=N {
+                let from = pair.checked_sub(1).map_or(color::SHORTEST_NM, |last| lanes[last]);
+                let to = lanes.get(pair).copied().unwrap_or(color::LONGEST_NM);
+                let count =
+                    if pair == 0 || pair == N { 1.0 } else { apart(pair - 1).clamp(1.0, MOST_BETWEEN) };
+                gathered.light.lines += sampled((from, to), (count as u32, path.cone.phase), &mut at);
             }
         }
         if self.lines.is_empty() {
@@ -159,18 +150,6 @@ fn one<const N: usize>(
     }
     let Gathered { caught, exit, .. } = gathered;
     (light.radiance[0], caught.unwrap_or_default(), exit.1)
-}
-
-/// XYZ of what lies before the first wavelength and after the last, where the radiance goes on.
-fn ends<const N: usize>(lanes: &[f64; N], values: &[f64; N]) -> DVec3 {
-    let hold = |from: f64, to: f64, value: f64| linear((from, value), (to, value));
-    hold(color::SHORTEST_NM, lanes[0], values[0]) + hold(lanes[N - 1], color::LONGEST_NM, values[N - 1])
-}
-
-/// XYZ of a radiance that is linear between two wavelengths.
-fn linear(a: (f64, f64), b: (f64, f64)) -> DVec3 {
-    let steps = ((b.0 - a.0) / 5.0).ceil().max(1.0) as u32;
-    sampled((a.0, b.0), (steps, 0.5), &mut |nm| a.1 + (b.1 - a.1) * (nm - a.0) / (b.0 - a.0))
 }
 
 /// XYZ of a radiance between two wavelengths, from as many evenly spaced ones, the first `phase` of a step in.
