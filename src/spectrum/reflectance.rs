@@ -1,5 +1,6 @@
 //! Reflectances: what part of the light a surface throws back, at any wavelength.
 
+use super::table::{ROWS, between_rows};
 use super::{Table, rows};
 use std::sync::LazyLock;
 
@@ -58,11 +59,19 @@ const OVER_NM: f64 = 40.0;
 /// First wavelength of the primaries' curves, nm, and the step between their rows.
 const FIRST_NM: f64 = 380.0;
 const STEP_NM: f64 = 5.0;
-const ROWS: usize = 81;
+const LAST_ROW: f64 = 80.0;
 
-static PRIMARIES: LazyLock<[[f64; 4]; ROWS]> = LazyLock::new(|| {
+/// The three curves row by row, and their steps to the next row.
+struct Primaries([([f64; 3], [f64; 3]); ROWS]);
+
+static PRIMARIES: LazyLock<Primaries> = LazyLock::new(|| {
     let rows = rows::<4>(include_str!("primaries.csv"));
-    std::array::from_fn(|i| [rows[i][1], rows[i][2], rows[i][3], 0.0])
+    let row = |i: usize| rows[i.min(LAST_ROW as usize)];
+    let step = |i: usize, curve: usize| row(i + 1)[curve] - row(i)[curve];
+    Primaries(std::array::from_fn(|i| {
+        let [_, r, g, b] = row(i);
+        ([r, g, b], [step(i, 1), step(i, 2), step(i, 3)])
+    }))
 });
 
 /// How far a spectrum is from daylight, or a reflectance from grey.
@@ -139,11 +148,10 @@ fn extended(rgb: [f64; 3], beyond: Beyond, wavelength_nm: f64) -> f64 {
 
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "the inside of the loop over wavelengths")]
-fn rgb_at(primaries: &[[f64; 4]; ROWS], rgb: [f64; 3], wavelength_nm: f64) -> f64 {
-    let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, (ROWS - 1) as f64);
-    let row = (place as usize).min(ROWS - 2);
-    let part = place - row as f64;
-    let (a, b) = (&primaries[row], &primaries[row + 1]);
-    let curve = |j: usize| a[j] + part * (b[j] - a[j]);
+fn rgb_at(primaries: &Primaries, rgb: [f64; 3], wavelength_nm: f64) -> f64 {
+    let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, LAST_ROW);
+    let (row, part) = between_rows(place);
+    let (start, step) = &primaries.0[row];
+    let curve = |j: usize| start[j] + part * step[j];
     rgb[0] * curve(0) + rgb[1] * curve(1) + rgb[2] * curve(2)
 }

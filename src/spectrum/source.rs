@@ -1,6 +1,7 @@
 //! Light sources' spectra: a smooth part at any wavelength, and lines.
 
-use super::{D65, Reflectance, Table, Tone, planck};
+use super::table::{Filtered, add};
+use super::{D65, Table, Tone, planck};
 use crate::color;
 
 /// A tabulated or defined CIE illuminant.
@@ -61,7 +62,7 @@ enum Smooth {
     BlackBody(f64),
     Constant,
     Daylight,
-    Filtered([f64; 3]),
+    Filtered(Filtered),
     Table(Table),
     Gauss { centre_nm: f64, sigma_nm: f64 },
 }
@@ -109,7 +110,7 @@ impl Source {
             Spectrum::Rgb(rgb) if rgb[0] == rgb[1] && rgb[1] == rgb[2] => {
                 self.smooth.push((factor * rgb[0], Smooth::Daylight));
             }
-            Spectrum::Rgb(rgb) => self.smooth.push((factor, Smooth::Filtered(*rgb))),
+            Spectrum::Rgb(rgb) => self.smooth.push((factor, Smooth::Filtered(Filtered::new(*rgb)))),
             Spectrum::Illuminant(Illuminant::D65) => self.smooth.push((factor, Smooth::Daylight)),
             Spectrum::Illuminant(Illuminant::A) => {
                 self.smooth.push((factor, Smooth::BlackBody(ILLUMINANT_A_K)));
@@ -204,15 +205,8 @@ impl Smooth {
         match self {
             Self::BlackBody(kelvin) => add(sum, wavelengths_nm, factor, |nm| planck(nm, *kelvin)),
             Self::Constant => add(sum, wavelengths_nm, factor, |_| 1.0),
-            Self::Daylight => {
-                let daylight = &*D65;
-                add(sum, wavelengths_nm, factor, |nm| daylight.at(nm));
-            }
-            Self::Filtered(rgb) => {
-                let filter = Reflectance::Rgb(*rgb);
-                let daylight = &*D65;
-                add(sum, wavelengths_nm, factor, |nm| daylight.at(nm) * filter.at(nm));
-            }
+            Self::Daylight => D65.add_each(sum, wavelengths_nm, factor),
+            Self::Filtered(filtered) => filtered.add_each(sum, wavelengths_nm, factor),
             Self::Table(table) => {
                 let (first, last) = table.range();
                 let value = |nm| if (first..=last).contains(&nm) { table.at(nm) } else { 0.0 };
@@ -223,14 +217,6 @@ impl Smooth {
                 libm::exp(-0.5 * z * z) * FRAC_1_SQRT_TAU / sigma_nm
             }),
         }
-    }
-}
-
-/// (A function, so that each spectrum has its own loop, which may run in vectors.)
-#[inline]
-fn add<const N: usize>(sum: &mut [f64; N], nm: &[f64; N], factor: f64, value: impl Fn(f64) -> f64) {
-    for (sum, nm) in sum.iter_mut().zip(nm) {
-        *sum += factor * value(*nm);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Tabulated spectra, and the CIE daylight that the program holds.
 
-use super::planck;
+use super::{Reflectance, planck};
 use std::sync::LazyLock;
 
 /// Values at wavelengths, linear in between and holding their ends beyond.
@@ -82,13 +82,27 @@ pub fn rows<const N: usize>(text: &str) -> Vec<[f64; N]> {
     text.lines().filter(|line| !line.is_empty()).map(row).collect()
 }
 
+/// The number of rows that places between them are looked up in, a power of two.
+pub(super) const ROWS: usize = 128;
+
+/// The row below a place, and how far beyond it, for places from 0 to the number of rows less two: between two rows either will do.
+/// (No conversion to an integer, so that many places are found at once.)
+#[inline(always)]
+pub(super) fn between_rows(place: f64) -> (usize, f64) {
+    // From here on numbers are whole.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    let row = (place - 0.5).max(0.0) + WHOLE;
+    (row.to_bits() as usize % ROWS, place - (row - WHOLE))
+}
+
 /// CIE standard illuminant D65, 100 at 560 nm.
 ///
 /// 300 to 830 nm from CIE 15:2018, 5 nm, linear in between. Beyond, where the CIE says nothing and a Doppler shift
 /// may ask, it goes on as a black body of 6504 K that meets the table's ends.
 #[derive(Debug)]
 pub struct Daylight {
-    table: Vec<f64>,
+    // With the step to the next row.
+    table: [[f64; 2]; ROWS],
     below: f64,
     above: f64,
 }
@@ -97,19 +111,95 @@ pub struct Daylight {
 pub static D65: LazyLock<Daylight> = LazyLock::new(|| {
     let table: Vec<f64> = rows::<2>(include_str!("d65.csv")).iter().map(|row| row[1]).collect();
     let (first, last) = (table[0], table[table.len() - 1]);
-    Daylight { below: first / planck(300.0, 6504.0), above: last / planck(830.0, 6504.0), table }
+    let row = |i: usize| table.get(i).copied().unwrap_or(last);
+    let steps = std::array::from_fn(|i| [row(i), row(i + 1) - row(i)]);
+    Daylight { below: first / planck(300.0, 6504.0), above: last / planck(830.0, 6504.0), table: steps }
 });
+
+fn in_table(nm: f64) -> bool {
+    (300.0..=830.0).contains(&nm)
+}
+
+/// (No early end, so that all are compared at once.)
+fn all_in_table<const N: usize>(nm: &[f64; N]) -> bool {
+    nm.iter().fold(true, |all, nm| all & in_table(*nm))
+}
+
+fn place(nm: f64) -> f64 {
+    (nm - 300.0) * (1.0 / 5.0)
+}
+
+/// Adds a spectrum, so many times. (A function, so that each spectrum has its own loop, which may run in vectors.)
+#[inline]
+pub(super) fn add<const N: usize>(
+    sum: &mut [f64; N],
+    nm: &[f64; N],
+    factor: f64,
+    value: impl Fn(f64) -> f64,
+) {
+    for (sum, nm) in sum.iter_mut().zip(nm) {
+        *sum += factor * value(*nm);
+    }
+}
+
+/// Daylight through a filter of one colour. (The rows of both are the same, so that one search finds both.)
+#[derive(Debug, Clone)]
+pub(super) struct Filtered {
+    filter: Reflectance,
+    // Daylight and its step to the next row, the filter and its step.
+    rows: Box<[[f64; 4]; ROWS]>,
+}
+
+impl Filtered {
+    /// Through a filter of linear sRGB.
+    pub(super) fn new(rgb: [f64; 3]) -> Self {
+        let filter = Reflectance::Rgb(rgb);
+        let part = |i: usize| filter.at(300.0 + 5.0 * i as f64);
+        let row = |i: usize| {
+            let [value, step] = D65.table[i];
+            [value, step, part(i), part(i + 1) - part(i)]
+        };
+        let rows = Box::new(std::array::from_fn(row));
+        Self { filter, rows }
+    }
+
+    /// Adds it, so many times, at many wavelengths.
+    #[inline]
+    pub(super) fn add_each<const N: usize>(&self, sum: &mut [f64; N], nm: &[f64; N], factor: f64) {
+        if !all_in_table(nm) {
+            return add(sum, nm, factor, |nm| D65.at(nm) * self.filter.at(nm));
+        }
+        add(sum, nm, factor, |nm| {
+            let (row, part) = between_rows(place(nm));
+            let [value, step, filter, filter_step] = self.rows[row];
+            (value + part * step) * (filter + part * filter_step)
+        });
+    }
+}
 
 impl Daylight {
     /// Relative spectral power at a wavelength in nm.
     #[inline]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        if !(300.0..=830.0).contains(&wavelength_nm) {
+        if !in_table(wavelength_nm) {
             return self.beyond(wavelength_nm);
         }
-        let place = (wavelength_nm - 300.0) / 5.0;
-        let row = (place as usize).min(self.table.len() - 2);
-        self.table[row] + (place - row as f64) * (self.table[row + 1] - self.table[row])
+        let (row, part) = between_rows(place(wavelength_nm));
+        let [value, step] = self.table[row];
+        value + part * step
+    }
+
+    /// Adds it, so many times, at many wavelengths.
+    #[inline]
+    pub(super) fn add_each<const N: usize>(&self, sum: &mut [f64; N], nm: &[f64; N], factor: f64) {
+        if !all_in_table(nm) {
+            return add(sum, nm, factor, |nm| self.at(nm));
+        }
+        add(sum, nm, factor, |nm| {
+            let (row, part) = between_rows(place(nm));
+            let [value, step] = self.table[row];
+            value + part * step
+        });
     }
 
     fn beyond(&self, wavelength_nm: f64) -> f64 {

@@ -1,8 +1,8 @@
 //! The mean of a texture over the ellipse that a sample of the picture stands for.
 
 use super::pyramid::{Pyramid, Stored, divided, linear, multiplied, square};
-use super::{Encoding, Filter, SRGB_BYTES, Texels, Texture, mix, srgb_byte};
-use glam::DVec2;
+use super::{Encoding, Filter, SRGB_BYTES, Texels, Texture, Wrap, floor, mix, srgb_byte};
+use glam::{DVec2, Vec4};
 
 /// The ellipse of a surface that a sample stands for, in the mesh's texture coordinates: two conjugate half
 /// axes, the images of any two perpendicular radii of the sample's cone of sight.
@@ -131,16 +131,16 @@ impl Texture {
         }
         let length = ellipse.squares[0].sqrt();
         if length < 1.0 && (pyramid.premultiplied() || self.filter == Filter::Nearest) {
-            mean = mix(self.rgba(uv), mean, (2.0 * length - 1.0) as f32);
+            mean = mix(Vec4::from(self.rgba(uv)), mean, (2.0 * length - 1.0) as f32);
         }
-        mean
+        mean.to_array()
     }
 
     /// The mean of the taps in the picture itself, with colours multiplied by alpha if asked for.
-    pub(super) fn in_picture(&self, place: DVec2, taps: &Taps, premultiplied: bool) -> [f32; 4] {
+    pub(super) fn in_picture(&self, place: DVec2, taps: &Taps, premultiplied: bool) -> Vec4 {
         let picture = &*self.picture;
         let size = [picture.width, picture.height];
-        let weighed = |texel: [f32; 4]| if premultiplied { multiplied(texel) } else { texel };
+        let weighed = |texel: Vec4| if premultiplied { multiplied(texel) } else { texel };
         // The common case once more: the choice of the decoding is taken out of the loops.
         if let (Texels::Byte(v), Encoding::Srgb) = (&picture.texels, picture.encoding) {
             let (table, width) = (&*SRGB_BYTES, size[0] as usize);
@@ -150,7 +150,7 @@ impl Texture {
     }
 
     /// The mean of the taps in one level, with colours multiplied by alpha if the pyramid's are.
-    fn in_level(&self, pyramid: &Pyramid, level: usize, place: DVec2, taps: &Taps) -> [f32; 4] {
+    fn in_level(&self, pyramid: &Pyramid, level: usize, place: DVec2, taps: &Taps) -> Vec4 {
         if level == 0 {
             return self.in_picture(place, taps, pyramid.premultiplied());
         }
@@ -159,38 +159,56 @@ impl Texture {
         match &level.texels {
             Stored::Root(v) => self.sum(level.size, place, taps, |c, r| square(v[number(c, r)])),
             Stored::Word(v) => self.sum(level.size, place, taps, |c, r| linear(v[number(c, r)])),
-            Stored::Float(v) => self.sum(level.size, place, taps, |c, r| v[number(c, r)]),
+            Stored::Float(v) => self.sum(level.size, place, taps, |c, r| Vec4::from(v[number(c, r)])),
         }
     }
 
     /// The mean of the taps in a grid of texels.
     #[inline]
-    fn sum(
-        &self,
-        size: [u32; 2],
-        place: DVec2,
-        taps: &Taps,
-        texel: impl Fn(usize, usize) -> [f32; 4],
-    ) -> [f32; 4] {
-        let middle = self.bilinear(place, size, &texel);
-        if taps.reach <= 1.0 {
-            return middle;
-        }
-        let side = taps.reach.ceil() - 1.0;
+    fn sum(&self, size: [u32; 2], place: DVec2, taps: &Taps, texel: impl Fn(usize, usize) -> Vec4) -> Vec4 {
+        let sizes = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let near = |i: usize| match self.wrap[i] {
+            Wrap::Clamp => place[i],
+            wrap => wrap.coordinate(place[i]),
+        };
+        let place = DVec2::new(near(0), near(1));
         let step = taps.step / self.picture.size();
-        // The sum of all weights.
-        let whole = 1.0 + 2.0 * side - side * (side + 1.0) / taps.reach;
-        let mut sum = middle.map(|c| c * (1.0 / whole) as f32);
-        for i in 1..=side as u32 {
-            let i = f64::from(i);
-            let weight = ((1.0 - i / taps.reach) / whole) as f32;
-            for at in [place - step * i, place + step * i] {
-                let value = self.bilinear(at, size, &texel);
-                for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += value * weight;
-                }
-            }
+        // Steps to each side; the last has still a weight.
+        let side = -floor(1.0 - taps.reach);
+        let (middle, along) = (place * sizes - 0.5, step * sizes);
+        let ends = along.abs() * side;
+        // As a rule all taps are well within the grid.
+        if (middle - ends).cmpge(DVec2::ZERO).all() && (middle + ends).cmplt(sizes - 1.0).all() {
+            let within = |i: f64| {
+                let at = middle + along * i;
+                let (column, row) = (at.x as i32, at.y as i32);
+                let right = (at.x - f64::from(column)) as f32;
+                let down = (at.y - f64::from(row)) as f32;
+                let [column, row] = [column as usize, row as usize];
+                let along = |row| mix(texel(column, row), texel(column + 1, row), right);
+                mix(along(row), along(row + 1), down)
+            };
+            weighed(taps.reach, side, within)
+        } else {
+            weighed(taps.reach, side, |i| self.bilinear(place + step * i, size, &texel))
         }
-        sum
     }
+}
+
+/// The mean of the taps from `-side` to `side`.
+#[inline]
+fn weighed(reach: f64, side: f64, tap: impl Fn(f64) -> Vec4) -> Vec4 {
+    let middle = tap(0.0);
+    if side <= 0.0 {
+        return middle;
+    }
+    // The sum of all weights.
+    let whole = 1.0 + 2.0 * side - side * (side + 1.0) / reach;
+    let mut sum = middle * (1.0 / whole) as f32;
+    for i in 1..=side as u32 {
+        let i = f64::from(i);
+        let weight = ((1.0 - i / reach) / whole) as f32;
+        sum += tap(-i) * weight + tap(i) * weight;
+    }
+    sum
 }

@@ -8,7 +8,7 @@
 mod filter;
 mod pyramid;
 
-use glam::{DAffine2, DVec2};
+use glam::{DAffine2, DVec2, Vec4};
 use std::fmt;
 use std::sync::{Arc, LazyLock};
 
@@ -112,9 +112,9 @@ static SRGB_WORDS: LazyLock<Vec<f32>> =
 
 /// The linear value of a texel of 8-bit sRGB, by the table of all of them.
 #[inline]
-fn srgb_byte(table: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
+fn srgb_byte(table: &[f32; 256], [r, g, b, a]: [u8; 4]) -> Vec4 {
     let value = |c: u8| table[usize::from(c)];
-    [value(r), value(g), value(b), f32::from(a) / 255.0]
+    Vec4::new(value(r), value(g), value(b), f32::from(a) / 255.0)
 }
 
 impl Picture {
@@ -129,7 +129,7 @@ impl Picture {
     }
 
     /// The linear RGBA of the texel at a column and a row, which must be inside.
-    fn texel(&self, column: usize, row: usize) -> [f32; 4] {
+    fn texel(&self, column: usize, row: usize) -> Vec4 {
         let at = row * self.width as usize + column;
         let srgb = self.encoding == Encoding::Srgb;
         match &self.texels {
@@ -137,7 +137,7 @@ impl Picture {
                 if srgb {
                     srgb_byte(&SRGB_BYTES, v[at])
                 } else {
-                    v[at].map(|c| f32::from(c) / 255.0)
+                    Vec4::from(v[at].map(f32::from)) / 255.0
                 }
             }
             Texels::Word(v) => {
@@ -145,9 +145,9 @@ impl Picture {
                 let value = |c: u16| {
                     if srgb { SRGB_WORDS[usize::from(c)] } else { f32::from(c) / 65535.0 }
                 };
-                [value(r), value(g), value(b), f32::from(a) / 65535.0]
+                Vec4::new(value(r), value(g), value(b), f32::from(a) / 65535.0)
             }
-            Texels::Float(v) => v[at],
+            Texels::Float(v) => Vec4::from(v[at]),
         }
     }
 }
@@ -204,14 +204,14 @@ impl Texture {
                 let x = self.wrap[i].coordinate(uv[i]) * f64::from(size[i]);
                 self.wrap[i].texel(floor(x) as i64, size[i])
             });
-            return picture.texel(column, row);
+            return picture.texel(column, row).to_array();
         }
-        self.in_picture(uv, &Taps::POINT, false)
+        self.in_picture(uv, &Taps::POINT, false).to_array()
     }
 
     /// The value at a pair of the picture's coordinates in a grid of texels of its own or another size.
     #[inline]
-    fn bilinear(&self, uv: DVec2, size: [u32; 2], texel: impl Fn(usize, usize) -> [f32; 4]) -> [f32; 4] {
+    fn bilinear(&self, uv: DVec2, size: [u32; 2], texel: impl Fn(usize, usize) -> Vec4) -> Vec4 {
         let [(columns, right), (rows, down)] =
             [self.wrap[0].between(uv.x, size[0]), self.wrap[1].between(uv.y, size[1])];
         let [upper, lower] = rows.map(|row| mix(texel(columns[0], row), texel(columns[1], row), right));
@@ -227,8 +227,9 @@ fn floor(x: f64) -> f64 {
 }
 
 /// `a` for a share of 0, `b` for a share of 1.
-fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
-    std::array::from_fn(|i| a[i] * (1.0 - share) + b[i] * share)
+#[inline]
+fn mix(a: Vec4, b: Vec4, share: f32) -> Vec4 {
+    a * (1.0 - share) + b * share
 }
 
 #[cfg(test)]

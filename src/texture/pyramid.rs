@@ -1,7 +1,7 @@
 //! A picture at half the size, a quarter, and so on down to one texel.
 
 use super::{Encoding, Picture, Texels};
-use glam::DVec4;
+use glam::{DVec4, Vec4};
 use std::fmt;
 use std::sync::OnceLock;
 
@@ -21,7 +21,7 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub struct Pyramid {
     levels: Vec<Level>,
-    mean: [f32; 4],
+    mean: Vec4,
     premultiplied: bool,
 }
 
@@ -45,26 +45,27 @@ pub(super) enum Stored {
 
 /// The value of a stored square root.
 #[inline]
-pub(super) fn square(texel: [u16; 4]) -> [f32; 4] {
-    texel.map(|c| f32::from(c) * f32::from(c) * (1.0 / (65535.0 * 65535.0)))
+pub(super) fn square(texel: [u16; 4]) -> Vec4 {
+    let root = Vec4::from(texel.map(f32::from));
+    root * root * (1.0 / (65535.0 * 65535.0))
 }
 
 /// The value of a stored word.
 #[inline]
-pub(super) fn linear(texel: [u16; 4]) -> [f32; 4] {
-    texel.map(|c| f32::from(c) * (1.0 / 65535.0))
+pub(super) fn linear(texel: [u16; 4]) -> Vec4 {
+    Vec4::from(texel.map(f32::from)) * (1.0 / 65535.0)
 }
 
 /// Colours multiplied by alpha.
 #[inline]
-pub(super) fn multiplied([r, g, b, a]: [f32; 4]) -> [f32; 4] {
-    [r * a, g * a, b * a, a]
+pub(super) fn multiplied(texel: Vec4) -> Vec4 {
+    (texel * texel.w).with_w(texel.w)
 }
 
 /// The colours of colours multiplied by alpha; black where nothing is.
 #[inline]
-pub(super) fn divided([r, g, b, a]: [f32; 4]) -> [f32; 4] {
-    if a > 0.0 { [r / a, g / a, b / a, a] } else { [0.0; 4] }
+pub(super) fn divided(texel: Vec4) -> Vec4 {
+    if texel.w > 0.0 { (texel / texel.w).with_w(texel.w) } else { Vec4::ZERO }
 }
 
 impl Stored {
@@ -115,7 +116,7 @@ impl Pyramid {
         let premultiplied = is_premultiplied(picture);
         let texel = |column, row| {
             let texel = picture.texel(column, row);
-            DVec4::from_array((if premultiplied { multiplied(texel) } else { texel }).map(f64::from))
+            (if premultiplied { multiplied(texel) } else { texel }).as_dvec4()
         };
         let mut size = [picture.width, picture.height];
         let mut levels = Vec::new();
@@ -130,7 +131,7 @@ impl Pyramid {
             below.extend((0..picture.width as usize).map(|column| texel(column, row)));
             give(&mut levels, &below);
         }
-        let mean = levels.last().map_or(&below, |last| &last.finished)[0].as_vec4().to_array();
+        let mean = levels.last().map_or(&below, |last| &last.finished)[0].as_vec4();
         Self {
             levels: levels.into_iter().map(|halving| halving.level).collect(),
             mean: if premultiplied { divided(mean) } else { mean },
@@ -140,7 +141,7 @@ impl Pyramid {
 
     /// The linear mean of the whole picture; of colours with transparent parts, each by its alpha.
     pub fn mean(&self) -> [f32; 4] {
-        self.mean
+        self.mean.to_array()
     }
 
     /// The bytes that its texels take.

@@ -15,6 +15,9 @@ pub use placed::{Form, Placed};
 use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Line, Tree};
 
+/// So many are asked one by one.
+const FEW: usize = 3;
+
 /// Everything at rest in one frame.
 #[derive(Debug, Clone)]
 pub struct RestFrame {
@@ -27,12 +30,12 @@ pub struct RestFrame {
 }
 
 impl RestFrame {
-    /// Builds the tree over what is placed. What has no end has no place in it; and one alone needs none.
+    /// Builds the tree over what is placed. What has no end has no place in it; and a few need none: each begins with its own box.
     pub fn new(rest_from_lab: Poincare<Rest, Lab>, placed: Vec<Placed>) -> Self {
         let (mut placed, endless): (Vec<_>, Vec<_>) =
             placed.into_iter().partition(|placed| placed.bounds().is_some());
         let mut boxes: Vec<Bounds> = placed.iter().filter_map(Placed::bounds).collect();
-        if boxes.len() == 1 {
+        if boxes.len() <= FEW {
             boxes.clear();
         }
         placed.extend(endless);
