@@ -11,7 +11,7 @@ mod space;
 mod wide;
 
 use glam::{Vec3, Vec3A};
-pub(crate) use lanes::Lanes;
+pub(crate) use lanes::{Lanes, Task, with_best};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};

@@ -11,11 +11,17 @@
 //! Time is linear along a ray, so on each side of the moment every face is one linear inequality. The boxes hold for all
 //! rays; from the event they were made for they are smallest.
 
+#![allow(
+    clippy::inline_always,
+    reason = "what is not inlined is not compiled for the instruction set that was chosen"
+)]
+
 use super::RestFrame;
 use crate::spacetime::{Event, SightRay};
-use crate::tree::Bounds;
+use crate::tree::{Bounds, Lanes, Task, with_best};
 use glam::DVec3;
 use smallvec::SmallVec;
+use std::array::from_fn;
 
 /// With fewer rest frames each is asked.
 const FEWEST: usize = 8;
@@ -51,62 +57,116 @@ impl Moving {
             v_hi: self.v_hi.max(other.v_hi),
         }
     }
+}
 
-    /// Where a ray may enter it at 0 <= s < `s_max`; infinite if nowhere.
-    fn entry(&self, ray: &SightRay, s_max: f64) -> f64 {
-        let ahead = ray.event.t - self.moment;
-        // The ray goes back in time: Δ = ahead - s k⁰.
-        let turn = (ahead / ray.k.t).clamp(0.0, s_max);
-        let late = self.stretch(ray, ahead, (self.v_lo, self.v_hi), (0.0, turn));
-        if late.is_finite() {
-            return late;
+/// Four moving boxes, lane by lane, and where they go on.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+struct Node {
+    moment: [f64; 4],
+    // By axis.
+    lo: [[f64; 4]; 3],
+    hi: [[f64; 4]; 3],
+    v_lo: [[f64; 4]; 3],
+    v_hi: [[f64; 4]; 3],
+    // An inner child: its index in `nodes`. A leaf: the number of a rest frame.
+    child: [u32; 4],
+    // Whether what is in each box has one velocity.
+    rigid: bool,
+}
+
+/// A child that is a leaf.
+const LEAF: u32 = 1 << 31;
+
+impl Node {
+    /// Boxes that no ray meets.
+    const EMPTY: Self = Self {
+        moment: [0.0; 4],
+        lo: [[f64::INFINITY; 4]; 3],
+        hi: [[f64::NEG_INFINITY; 4]; 3],
+        v_lo: [[0.0; 4]; 3],
+        v_hi: [[0.0; 4]; 3],
+        child: [LEAF; 4],
+        rigid: true,
+    };
+
+    fn set(&mut self, lane: usize, child: u32, moving: &Moving) {
+        self.moment[lane] = moving.moment;
+        for axis in 0..3 {
+            self.lo[axis][lane] = moving.lo[axis];
+            self.hi[axis][lane] = moving.hi[axis];
+            self.v_lo[axis][lane] = moving.v_lo[axis];
+            self.v_hi[axis][lane] = moving.v_hi[axis];
         }
-        self.stretch(ray, ahead, (self.v_hi, self.v_lo), (turn, s_max))
+        self.child[lane] = child;
+        self.rigid &= moving.v_lo == moving.v_hi;
+    }
+
+    /// Where a ray may enter each box at 0 <= s <= `s_max`; infinite if nowhere.
+    #[inline(always)]
+    fn entries<L: Lanes>(&self, lanes: L, ray: &SightRay, s_max: f64) -> [f64; 4] {
+        let ahead: [f64; 4] = from_fn(|i| ray.event.t - self.moment[i]);
+        if self.rigid {
+            return self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], &[0.0; 4], &[s_max; 4]);
+        }
+        // The ray goes back in time: Δ = ahead - s k⁰.
+        let turn: [f64; 4] = from_fn(|i| {
+            let turn = ahead[i] / ray.k.t;
+            let turn = if turn > 0.0 { turn } else { 0.0 };
+            if turn < s_max { turn } else { s_max }
+        });
+        let late = self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], &[0.0; 4], &turn);
+        let early = self.stretch(lanes, ray, &ahead, [&self.v_hi, &self.v_lo], &turn, &[s_max; 4]);
+        from_fn(|i| if late[i] < early[i] { late[i] } else { early[i] })
     }
 
     /// The first s of a stretch at which the ray is within the faces, which move with these velocities.
-    fn stretch(
+    #[inline(always)]
+    fn stretch<L: Lanes>(
         &self,
+        lanes: L,
         ray: &SightRay,
-        ahead: f64,
-        (v_lo, v_hi): (DVec3, DVec3),
-        (from, to): (f64, f64),
-    ) -> f64 {
-        let (x, k) = (ray.event.x, ray.k);
-        let slack = ROUNDING * k.t;
-        let pad = ROUNDING * (x.abs().max_element() + ray.event.t.abs() + self.moment.abs());
-        // Above the lower faces: room >= s closing, and so below the upper ones.
-        let lower = (x - self.lo - v_lo * ahead + pad, k.x - v_lo * k.t - slack);
-        let upper = (self.hi + v_hi * ahead - x + pad, v_hi * k.t - k.x - slack);
-        let (mut first, mut last) = (from, to);
-        for (room, closing) in [lower, upper] {
-            for axis in 0..3 {
-                let (room, closing) = (room[axis], closing[axis]);
-                if closing > 0.0 {
-                    last = last.min(room / closing);
-                } else if closing < 0.0 {
-                    first = first.max(room / closing);
-                } else if room < 0.0 {
-                    return f64::INFINITY;
-                }
-            }
+        ahead: &[f64; 4],
+        [v_lo, v_hi]: [&[[f64; 4]; 3]; 2],
+        from: &[f64; 4],
+        to: &[f64; 4],
+    ) -> [f64; 4] {
+        let slack = ROUNDING * ray.k.t;
+        let own = ray.event.x.abs().max_element() + ray.event.t.abs();
+        let pad: [f64; 4] = from_fn(|i| ROUNDING * (own + self.moment[i].abs()));
+        let mut within = (*from, *to);
+        for axis in 0..3 {
+            let (x, k) = (ray.event.x[axis], ray.k.x[axis]);
+            let (lo, hi, v_lo, v_hi) = (&self.lo[axis], &self.hi[axis], &v_lo[axis], &v_hi[axis]);
+            let room: [f64; 4] = from_fn(|i| x - lo[i] - v_lo[i] * ahead[i] + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| k - v_lo[i] * ray.k.t - slack));
+            let room: [f64; 4] = from_fn(|i| hi[i] + v_hi[i] * ahead[i] - x + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| v_hi[i] * ray.k.t - k - slack));
         }
-        if first <= last * (1.0 + ROUNDING) { first } else { f64::INFINITY }
+        let (first, last) = within;
+        let met = lanes.at_most_4(first, last.map(|last| last * (1.0 + ROUNDING)));
+        from_fn(|i| if met >> i & 1 == 1 { first[i] } else { f64::INFINITY })
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    moving: Moving,
-    // A leaf: the number of a rest frame. Else the second child; the first is the next node.
-    leaf: bool,
-    next: u32,
+/// What is left of stretches of s where `room >= s closing`.
+#[inline(always)]
+fn beyond((first, last): ([f64; 4], [f64; 4]), room: &[f64; 4], closing: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+    // Along a face it is beyond it, or not, for ever: room / 0. (The sum makes a negative zero a positive one.)
+    let s: [f64; 4] = from_fn(|i| room[i] / (closing[i] + 0.0));
+    let after: [f64; 4] = from_fn(|i| if closing[i] < 0.0 { s[i] } else { f64::NEG_INFINITY });
+    let before: [f64; 4] = from_fn(|i| if closing[i] < 0.0 { f64::INFINITY } else { s[i] });
+    (
+        from_fn(|i| if after[i] > first[i] { after[i] } else { first[i] }),
+        from_fn(|i| if before[i] < last[i] { before[i] } else { last[i] }),
+    )
 }
 
 /// A tree of moving boxes over the rest frames of a world.
 #[derive(Debug, Clone)]
 pub struct Crowd {
     nodes: Vec<Node>,
+    root: Option<u32>,
     // Frames with something that has no end.
     endless: Vec<u32>,
 }
@@ -125,37 +185,31 @@ impl Crowd {
                 None => endless.push(number as u32),
             }
         }
-        let mut crowd = Self { nodes: Vec::with_capacity(2 * leaves.len()), endless };
-        if !leaves.is_empty() {
-            crowd.add(&mut leaves);
-        }
+        let mut crowd = Self { nodes: Vec::with_capacity(leaves.len() / 2), root: None, endless };
+        crowd.root = (!leaves.is_empty()).then(|| crowd.add(&mut leaves).0);
         Some(crowd)
     }
 
-    /// The node over these, after all nodes there are: halves of them in the direction in which they appear widest.
-    fn add(&mut self, leaves: &mut [(u32, Moving)]) -> Moving {
-        let own = self.nodes.len();
+    /// What is over these, after all nodes there are: quarters of them, cut in the directions in which they appear widest.
+    fn add(&mut self, leaves: &mut [(u32, Moving)]) -> (u32, Moving) {
         if let [(number, moving)] = leaves {
-            self.nodes.push(Node { moving: *moving, leaf: true, next: *number });
-            return *moving;
+            return (LEAF | *number, *moving);
         }
-        let middle = |moving: &Moving| 0.5 * moving.lo + 0.5 * moving.hi;
-        let all = Bounds::of(leaves.iter().map(|(_, moving)| middle(moving)));
-        let wide = all.hi - all.lo;
-        let axis = if wide.x >= wide.y.max(wide.z) { 0 } else { 1 + usize::from(wide.z > wide.y) };
-        let half = leaves.len() / 2;
-        leaves.select_nth_unstable_by(half, |a, b| {
-            middle(&a.1)[axis].total_cmp(&middle(&b.1)[axis]).then(a.0.cmp(&b.0))
-        });
-        self.nodes.push(Node { moving: leaves[0].1, leaf: false, next: 0 });
-        let (one, other) = leaves.split_at_mut(half);
-        let one = self.add(one);
-        let next = self.nodes.len() as u32;
-        let other = self.add(other);
-        let moment = 0.5 * one.moment + 0.5 * other.moment;
-        let moving = one.at(moment).with(&other.at(moment));
-        self.nodes[own] = Node { moving, leaf: false, next };
-        moving
+        let own = self.nodes.len();
+        self.nodes.push(Node::EMPTY);
+        let (one, other) = halves(leaves);
+        let quarters = [one, other].map(halves);
+        let mut node = Node::EMPTY;
+        let mut children: SmallVec<[Moving; 4]> = SmallVec::new();
+        for quarter in quarters.into_iter().flat_map(<[_; 2]>::from).filter(|quarter| !quarter.is_empty()) {
+            let (child, moving) = self.add(quarter);
+            node.set(children.len(), child, &moving);
+            children.push(moving);
+        }
+        self.nodes[own] = node;
+        let moment = children.iter().map(|child| child.moment / children.len() as f64).sum();
+        let all = children[1..].iter().fold(children[0].at(moment), |all, one| all.with(&one.at(moment)));
+        (own as u32, all)
     }
 
     /// Calls `visit` with every rest frame that the ray may meet at 0 < s < `s_max`, roughly by growing s. `visit` gets the
@@ -169,29 +223,61 @@ impl Crowd {
             }
         }
         let mut open: SmallVec<[(f64, u32); 32]> = SmallVec::new();
-        if let Some(root) = self.nodes.first() {
-            open.push((root.moving.entry(ray, limit), 0));
-        }
+        open.extend(self.root.map(|root| (0.0, root)));
         while let Some((entry, at)) = open.pop() {
-            // Not `entry > limit`: infinite is nowhere, whatever the limit.
-            if !(entry.is_finite() && entry <= limit) {
+            if entry > limit {
                 continue;
             }
-            let node = &self.nodes[at as usize];
-            if node.leaf {
-                limit = visit(node.next, limit);
+            if at & LEAF != 0 {
+                limit = visit(at & !LEAF, limit);
                 if limit < 0.0 {
                     return limit;
                 }
                 continue;
             }
-            let entry = |number: u32| (self.nodes[number as usize].moving.entry(ray, limit), number);
-            let (near, far) = (entry(at + 1), entry(node.next));
-            let (near, far) = if far.0 < near.0 { (far, near) } else { (near, far) };
-            open.push(far);
-            open.push(near);
+            let node = &self.nodes[at as usize];
+            let entries = with_best(Entries { node, ray, s_max: limit });
+            let before = open.len();
+            for (entry, child) in entries.into_iter().zip(node.child) {
+                if entry.is_finite() {
+                    // The nearest last.
+                    let farther = open[before..].iter().take_while(|(other, _)| *other >= entry).count();
+                    open.insert(before + farther, (entry, child));
+                }
+            }
         }
         limit
+    }
+}
+
+/// One half, and the other, in the direction in which they appear widest.
+fn halves(leaves: &mut [(u32, Moving)]) -> (&mut [(u32, Moving)], &mut [(u32, Moving)]) {
+    let half = leaves.len() / 2;
+    if half > 0 {
+        let middle = |moving: &Moving| 0.5 * moving.lo + 0.5 * moving.hi;
+        let all = Bounds::of(leaves.iter().map(|(_, moving)| middle(moving)));
+        let wide = all.hi - all.lo;
+        let axis = if wide.x >= wide.y.max(wide.z) { 0 } else { 1 + usize::from(wide.z > wide.y) };
+        leaves.select_nth_unstable_by(half, |a, b| {
+            middle(&a.1)[axis].total_cmp(&middle(&b.1)[axis]).then(a.0.cmp(&b.0))
+        });
+    }
+    leaves.split_at_mut(half)
+}
+
+/// The question to be asked of a node.
+struct Entries<'a> {
+    node: &'a Node,
+    ray: &'a SightRay,
+    s_max: f64,
+}
+
+impl Task for Entries<'_> {
+    type Output = [f64; 4];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> [f64; 4] {
+        self.node.entries(lanes, self.ray, self.s_max)
     }
 }
 
