@@ -11,6 +11,7 @@ use crate::spectrum::Wavelengths;
 use crate::trace::{Cone, First, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// How finely a picture is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,8 +41,8 @@ impl Sampling {
 /// What is brighter (cd/m²) is as bright as this: numbers in 32 bits, sRGB's among them, go no further.
 const BRIGHTEST: f64 = 1e37;
 
-/// Rows that one task of the pool takes: small enough to share out, large enough to keep rays together.
-const ROWS_PER_TASK: usize = 4;
+/// Columns and rows of a tile; a row of tiles is a task of the pool.
+const TILE: usize = 8;
 
 /// Exposes a picture. The same bytes on any number of threads.
 pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
@@ -105,14 +106,29 @@ pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Op
     by_pixel(width, height, first)
 }
 
+/// Something of each pixel, row by row. (Found tile by tile, since rays that are near one another meet the same things.)
 fn by_pixel<T: Send + Clone>(width: u32, height: u32, of: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
     let (width, height) = (width as usize, height as usize);
-    let bands: Vec<Vec<T>> = (0..height.div_ceil(ROWS_PER_TASK))
+    let tiles = |end: usize| (0..end.div_ceil(TILE)).map(move |i| i * TILE..((i + 1) * TILE).min(end));
+    let bands: Vec<Vec<T>> = tiles(height)
+        .collect::<Vec<_>>()
         .into_par_iter()
-        .map(|band| {
-            let rows = band * ROWS_PER_TASK..((band + 1) * ROWS_PER_TASK).min(height);
-            rows.flat_map(|row| (0..width).map(move |column| (column, row))).map(|(c, r)| of(c, r)).collect()
+        .map(|rows| {
+            let places = |columns: Range<usize>| {
+                rows.clone().flat_map(move |row| columns.clone().map(move |c| (c, row)))
+            };
+            tiles(width).flat_map(places).map(|(column, row)| of(column, row)).collect()
         })
         .collect();
-    bands.concat()
+    let mut all = Vec::with_capacity(width * height);
+    for band in bands {
+        let rows = band.len() / width.max(1);
+        for row in 0..rows {
+            for columns in tiles(width) {
+                let first = columns.start * rows + row * columns.len();
+                all.extend_from_slice(&band[first..first + columns.len()]);
+            }
+        }
+    }
+    all
 }
