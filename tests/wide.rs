@@ -40,7 +40,7 @@ impl Both {
                 && s > 0.0
                 && s < limit
             {
-                all.push(bits(Meeting { triangle, s, weights }));
+                all.push(bits(Meeting { triangle, s, weights, place: 0 }));
             }
             limit
         });

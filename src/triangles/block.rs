@@ -34,7 +34,7 @@ impl Block {
     }
 
     #[inline(always)]
-    fn corner(&self, corner: usize, lane: usize) -> [f32; 3] {
+    pub(super) fn corner(&self, corner: usize, lane: usize) -> [f32; 3] {
         from_fn(|axis| self.corners[axis][corner][lane])
     }
 }

@@ -25,6 +25,8 @@ pub struct Meeting {
     pub s: f64,
     /// Weights of the second and the third corner.
     pub weights: (f64, f64),
+    /// Where the tree keeps its corners.
+    pub place: u32,
 }
 
 /// A mesh and the tree over its triangles, both in the mesh's own coordinates; built once, shared by all instances.
@@ -62,6 +64,13 @@ impl Triangles {
     /// Corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh.triangles[triangle as usize].map(|i| self.mesh.positions[i as usize].as_dvec3())
+    }
+
+    /// Corners of the triangle of a meeting: those that the walk has just read.
+    #[inline]
+    pub(crate) fn corners_met(&self, meeting: &Meeting) -> [DVec3; 3] {
+        let block = &self.blocks[meeting.place as usize / 4];
+        [0, 1, 2].map(|corner| DVec3::from(block.corner(corner, meeting.place as usize % 4).map(f64::from)))
     }
 
     /// The first meeting at 0 < s < `s_max`; of several at the same s the one with the smallest number.
@@ -106,14 +115,22 @@ impl Triangles {
 
 /// Tells the meetings in some blocks, in their order.
 #[inline(always)]
-fn meetings<L: Lanes>(lanes: L, blocks: &[Block], line: &Sheared, mut tell: impl FnMut(Meeting)) {
-    for block in blocks {
+fn meetings<L: Lanes>(
+    lanes: L,
+    blocks: &[Block],
+    among: Range<usize>,
+    line: &Sheared,
+    mut tell: impl FnMut(Meeting),
+) {
+    let first = among.start;
+    for (number, block) in blocks[among].iter().enumerate() {
         let mut met = line.may_meet(lanes, block);
         while met != 0 {
             let lane = met.trailing_zeros() as usize & 3;
             met &= met - 1;
             if let Some((s, weights)) = line.meet_lane(block, lane) {
-                tell(Meeting { triangle: block.numbers[lane], s, weights });
+                let place = (4 * (first + number) + lane) as u32;
+                tell(Meeting { triangle: block.numbers[lane], s, weights, place });
             }
         }
     }
@@ -131,7 +148,7 @@ impl Visit for Nearest<'_> {
 
     #[inline(always)]
     fn look<L: Lanes>(&mut self, lanes: L, blocks: Range<usize>, mut limit: f64) -> f64 {
-        meetings(lanes, &self.blocks[blocks], &self.line, |meeting| {
+        meetings(lanes, self.blocks, blocks, &self.line, |meeting| {
             // Both triangles at an edge may be met at the same s.
             let wins = |met: Meeting| meeting.s == met.s && meeting.triangle < met.triangle;
             if meeting.s > 0.0 && (meeting.s < limit || self.met.is_some_and(wins)) {
@@ -157,7 +174,7 @@ impl<F: FnMut(Meeting) -> bool> Visit for Until<'_, F> {
     #[inline(always)]
     fn look<L: Lanes>(&mut self, lanes: L, blocks: Range<usize>, limit: f64) -> f64 {
         let Self { line, enough, stopped, .. } = self;
-        meetings(lanes, &self.blocks[blocks], line, |meeting| {
+        meetings(lanes, self.blocks, blocks, line, |meeting| {
             *stopped = *stopped || (meeting.s > 0.0 && meeting.s < limit && enough(meeting));
         });
         if *stopped { -1.0 } else { limit }

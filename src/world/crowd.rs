@@ -59,6 +59,9 @@ impl Moving {
     }
 }
 
+/// The number of a rest frame, and its box.
+type Leaf = (u32, Moving);
+
 /// Four moving boxes, lane by lane, and where they go on.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
@@ -107,7 +110,7 @@ impl Node {
     fn entries<L: Lanes>(&self, lanes: L, ray: &SightRay, s_max: f64) -> [f64; 4] {
         let ahead: [f64; 4] = from_fn(|i| ray.event.t - self.moment[i]);
         if self.rigid {
-            return self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], &[0.0; 4], &[s_max; 4]);
+            return self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], (&[0.0; 4], &[s_max; 4]));
         }
         // The ray goes back in time: Δ = ahead - s k⁰.
         let turn: [f64; 4] = from_fn(|i| {
@@ -115,8 +118,8 @@ impl Node {
             let turn = if turn > 0.0 { turn } else { 0.0 };
             if turn < s_max { turn } else { s_max }
         });
-        let late = self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], &[0.0; 4], &turn);
-        let early = self.stretch(lanes, ray, &ahead, [&self.v_hi, &self.v_lo], &turn, &[s_max; 4]);
+        let late = self.stretch(lanes, ray, &ahead, [&self.v_lo, &self.v_hi], (&[0.0; 4], &turn));
+        let early = self.stretch(lanes, ray, &ahead, [&self.v_hi, &self.v_lo], (&turn, &[s_max; 4]));
         from_fn(|i| if late[i] < early[i] { late[i] } else { early[i] })
     }
 
@@ -128,8 +131,7 @@ impl Node {
         ray: &SightRay,
         ahead: &[f64; 4],
         [v_lo, v_hi]: [&[[f64; 4]; 3]; 2],
-        from: &[f64; 4],
-        to: &[f64; 4],
+        (from, to): (&[f64; 4], &[f64; 4]),
     ) -> [f64; 4] {
         let slack = ROUNDING * ray.k.t;
         let own = ray.event.x.abs().max_element() + ray.event.t.abs();
@@ -191,7 +193,7 @@ impl Crowd {
     }
 
     /// What is over these, after all nodes there are: quarters of them, cut in the directions in which they appear widest.
-    fn add(&mut self, leaves: &mut [(u32, Moving)]) -> (u32, Moving) {
+    fn add(&mut self, leaves: &mut [Leaf]) -> (u32, Moving) {
         if let [(number, moving)] = leaves {
             return (LEAF | *number, *moving);
         }
@@ -251,7 +253,7 @@ impl Crowd {
 }
 
 /// One half, and the other, in the direction in which they appear widest.
-fn halves(leaves: &mut [(u32, Moving)]) -> (&mut [(u32, Moving)], &mut [(u32, Moving)]) {
+fn halves(leaves: &mut [Leaf]) -> (&mut [Leaf], &mut [Leaf]) {
     let half = leaves.len() / 2;
     if half > 0 {
         let middle = |moving: &Moving| 0.5 * moving.lo + 0.5 * moving.hi;

@@ -177,7 +177,7 @@ impl Placed {
 
     fn local_of_mesh(&self, triangles: &Triangles, meeting: &Meeting) -> Local {
         let mesh = &triangles.mesh;
-        let corners = triangles.corners(meeting.triangle);
+        let corners = triangles.corners_met(meeting);
         let x = self.rest_from_form.transform_point3(mix(corners, meeting.weights));
         let facet = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         let corner_normals = mesh.triangles[meeting.triangle as usize]
@@ -201,7 +201,7 @@ impl Placed {
             (Met::Triangle(meeting), Form::Mesh(triangles)) => {
                 let mesh = &triangles.mesh;
                 let uvs = mesh.uvs.get(set as usize).filter(|uvs| !uvs.is_empty())?;
-                let corners = triangles.corners(meeting.triangle);
+                let corners = triangles.corners_met(meeting);
                 let edge = |i: usize| self.rest_from_form.transform_vector3(corners[i] - corners[0]);
                 let [a, b, c] = mesh.triangles[meeting.triangle as usize].map(|i| uvs[i as usize].as_dvec2());
                 Some(([edge(1), edge(2)], [b - a, c - a]))

@@ -37,7 +37,7 @@ impl<'a> Binary<'a> {
         let mesh = self.mesh;
         let corners = mesh.triangles[triangle as usize].map(|i| &mesh.positions[i as usize]);
         let (s, weights) = line.meet(corners.map(AsRef::as_ref))?;
-        (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights })
+        (s > 0.0 && s < limit).then_some(Meeting { triangle, s, weights, place: 0 })
     }
 
     fn nearest(&self, line: &Line, s_max: f64) -> Option<Meeting> {
