@@ -85,7 +85,7 @@ pub fn rows<const N: usize>(text: &str) -> Vec<[f64; N]> {
 /// The number of rows that places between them are looked up in, a power of two.
 pub(super) const ROWS: usize = 128;
 
-/// The row below a place, and how far beyond it, for places from 0 to the number of rows less two: between two rows either will do.
+/// The row below a place, and how far beyond it, for places that are not negative: at a row it may be the end of the one below.
 /// (No conversion to an integer, so that many places are found at once.)
 #[inline(always)]
 pub(super) fn between_rows(place: f64) -> (usize, f64) {
@@ -181,9 +181,11 @@ impl Daylight {
     /// Relative spectral power at a wavelength in nm.
     #[inline]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        if !in_table(wavelength_nm) {
-            return self.beyond(wavelength_nm);
-        }
+        if in_table(wavelength_nm) { self.within(wavelength_nm) } else { self.beyond(wavelength_nm) }
+    }
+
+    #[inline]
+    fn within(&self, wavelength_nm: f64) -> f64 {
         let (row, part) = between_rows(place(wavelength_nm));
         let [value, step] = self.table[row];
         value + part * step
@@ -192,14 +194,11 @@ impl Daylight {
     /// Adds it, so many times, at many wavelengths.
     #[inline]
     pub(super) fn add_each<const N: usize>(&self, sum: &mut [f64; N], nm: &[f64; N], factor: f64) {
-        if !all_in_table(nm) {
-            return add(sum, nm, factor, |nm| self.at(nm));
+        if all_in_table(nm) {
+            add(sum, nm, factor, |nm| self.within(nm));
+        } else {
+            add(sum, nm, factor, |nm| self.at(nm));
         }
-        add(sum, nm, factor, |nm| {
-            let (row, part) = between_rows(place(nm));
-            let [value, step] = self.table[row];
-            value + part * step
-        });
     }
 
     fn beyond(&self, wavelength_nm: f64) -> f64 {

@@ -89,7 +89,7 @@ pub struct Lit<'a> {
 pub struct Light<const N: usize> {
     /// Spectral radiance at the observer's wavelengths, W m⁻² sr⁻¹ nm⁻¹.
     pub radiance: [f64; N],
-    /// XYZ (cd/m²) of what no wavelength samples: spectral lines, and the edges of colours that glass has parted.
+    /// XYZ (cd/m²) of what no wavelength samples: spectral lines, and colours that glass has parted.
     pub lines: DVec3,
 }
 
