@@ -1,7 +1,7 @@
 //! Where an index depends on the wavelength each wavelength goes its own way.
 //!
 //! The observer's wavelengths are followed one by one, as long as they hardly part. Where they do, each sample of a pixel follows others
-//! between them, as many as it takes for neighbours to lie no more than a pixel apart (over the samples of the pixel), so that
+//! between them, as many as it takes for neighbours to lie a third of a pixel apart (over the samples of the pixel), so that
 //! colours change continuously across a picture and its samples tell how far it is settled. Spectral lines are followed at
 //! their own wavelength, wherever between the samples that is.
 
@@ -36,6 +36,8 @@ const BROAD_NM: f64 = 2.0;
 const STEPS: u32 = 12;
 /// Neighbours that part less than this (pixels) do not part.
 const TOGETHER: f64 = 0.2;
+/// So many wavelengths to a pixel that neighbours part, over the pixel's samples: with one, rainbows have stripes.
+const PER_PIXEL: f64 = 3.0;
 /// The most wavelengths between two neighbours.
 const MOST_BETWEEN: f64 = 31.0;
 
@@ -72,7 +74,8 @@ impl Lit<'_> {
             }
         } else {
             let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
-            let apart = |pair: usize| apart.get(pair).map_or(0.0, |apart| (apart / samples).ceil());
+            let apart =
+                |pair: usize| apart.get(pair).map_or(0.0, |apart| (PER_PIXEL * apart / samples).ceil());
             for pair in 0..=N {
                 let from = pair.checked_sub(1).map_or(color::SHORTEST_NM, |last| lanes[last]);
                 let to = lanes.get(pair).copied().unwrap_or(color::LONGEST_NM);
