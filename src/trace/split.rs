@@ -45,7 +45,7 @@ const MOST_BETWEEN: f64 = 31.0;
 pub(super) struct Parted<'f> {
     /// Its wave vector before.
     pub(super) wave: FourVector,
-    /// How far each wavelength and the next part, in pixels; 0 where it is not known.
+    /// How far each wavelength and the next part, in pixels; 0 where it is not known, and for the last.
     pub(super) apart: &'f [f64],
     /// Follows one wavelength.
     pub(super) follow: &'f mut dyn FnMut(f64, &Path<'_, 1>, &mut Gathered<'_, 1>),
@@ -74,13 +74,12 @@ impl Lit<'_> {
             }
         } else {
             let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
-            let apart =
-                |pair: usize| apart.get(pair).map_or(0.0, |apart| (PER_PIXEL * apart / samples).ceil());
-            for pair in 0..=N {
-                let from = pair.checked_sub(1).map_or(color::SHORTEST_NM, |last| lanes[last]);
-                let to = lanes.get(pair).copied().unwrap_or(color::LONGEST_NM);
-                let count =
-                    if pair == 0 || pair == N { 1.0 } else { apart(pair - 1).clamp(1.0, MOST_BETWEEN) };
+            for next in 0..=N {
+                let last = next.checked_sub(1);
+                let from = last.map_or(color::SHORTEST_NM, |last| lanes[last]);
+                let to = lanes.get(next).copied().unwrap_or(color::LONGEST_NM);
+                let apart = last.and_then(|last| apart.get(last)).copied().unwrap_or(0.0);
+                let count = (PER_PIXEL * apart / samples).ceil().clamp(1.0, MOST_BETWEEN);
                 gathered.light.lines += sampled((from, to), (count as u32, path.cone.phase), &mut at);
             }
         }
