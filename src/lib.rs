@@ -25,6 +25,7 @@ pub mod output;
 pub mod plan;
 pub mod render;
 pub mod scene;
+mod simd;
 pub mod solid;
 pub mod spacetime;
 pub mod spectrum;

@@ -1,6 +1,8 @@
 //! Many bodies, each with a velocity of its own: asking only those that a ray can meet gives what asking all gives.
 
-use crate::support::{Body, Dice, Lantern, Stage, ball, black, black_body, diffuse, light_from, plane, v};
+use crate::support::{
+    Body, Dice, Lantern, Stage, ball, black, black_body, cuboid, diffuse, light_from, plane, v,
+};
 use glam::DVec3;
 use terrell::scene::Scene;
 use terrell::spacetime::{Event, FourVector, SightRay, Velocity};
@@ -63,7 +65,10 @@ fn asking_whom_a_ray_can_meet_is_asking_all() {
                 let frequency = libm::pow(10.0, dice.between(-3.0, 3.0));
                 let n = dice.direction();
                 let ray = SightRay { event: start, k: FourVector::new(frequency, n * frequency) };
-                let s_max = dice.between(1.0, 100.0) / frequency;
+                // And from so far away that the crowd is a point.
+                let away = if number % 7 == 0 { libm::pow(10.0, dice.between(4.0, 12.0)) } else { 0.0 };
+                let ray = SightRay { event: ray.at(-away / frequency), ..ray };
+                let s_max = (away + dice.between(1.0, 100.0)) / frequency;
                 let (fast, slow) =
                     (asked(&scene, &ray, s_max, Some(&crowd)), asked(&scene, &ray, s_max, None));
                 assert_eq!(fast, slow, "{count} bodies, from {start:?} along {n}");
@@ -90,6 +95,34 @@ fn rays_at_the_rims_of_bodies_are_not_lost() {
         for _ in 0..8 {
             let side = (dice.direction().cross(toward)).normalize();
             let touch = middle + radius * (1.0 - 1e-9) * (toward * sin + side * (1.0 - sin * sin).sqrt());
+            let left = Event::new(at.t - (at.x - touch).length(), touch);
+            let ray = light_from(rest.rest_from_lab.undo(left).x, eye);
+            let (fast, slow) = (asked(&scene, &ray, 1e9, Some(&crowd)), asked(&scene, &ray, 1e9, None));
+            assert_eq!(fast, slow);
+        }
+    }
+}
+
+/// The corners of boxes in the lab: what is tightest there is a flat box that moves along an axis.
+#[test]
+fn rays_at_the_corners_of_boxes_are_not_lost() {
+    let mut dice = Dice(75);
+    let eye = Event::new(7.0, v(-3.0, 0.5, 2.0));
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let bodies = (0..300).map(|number| {
+        let distance = dice.between(3.0, 100.0);
+        let place = eye.x + dice.direction() * distance;
+        let velocity = Velocity::from_beta(axes[number % 3] * dice.between(-0.99, 0.99)).unwrap();
+        let half = (dice.in_cube().abs() + 0.1) * 0.02 * distance;
+        Body::of(cuboid(-half, half), diffuse(0.5)).at(eye.t - distance, place).moving(velocity)
+    });
+    let scene = Stage::of(bodies).scene();
+    let crowd = scene.world.crowd(eye).unwrap();
+    for rest in &scene.world.frames {
+        let bounds = rest.placed[0].bounds().unwrap();
+        let (middle, at) = (0.5 * (bounds.lo + bounds.hi), rest.rest_from_lab * eye);
+        for corner in bounds.corners() {
+            let touch = middle + (corner - middle) * (1.0 - 1e-9);
             let left = Event::new(at.t - (at.x - touch).length(), touch);
             let ray = light_from(rest.rest_from_lab.undo(left).x, eye);
             let (fast, slow) = (asked(&scene, &ray, 1e9, Some(&crowd)), asked(&scene, &ray, 1e9, None));

@@ -1,6 +1,6 @@
 //! Reflectances: what part of the light a surface throws back, at any wavelength.
 
-use super::table::{ROWS, between_rows};
+use super::table::{ROWS, add, between_rows};
 use super::{Table, rows};
 use std::sync::LazyLock;
 
@@ -122,9 +122,7 @@ impl Reflectance {
             Self::Rgb(rgb) => {
                 let primaries = &*PRIMARIES;
                 let mut values = [0.0; N];
-                for (value, nm) in values.iter_mut().zip(wavelengths_nm) {
-                    *value = rgb_at(primaries, *rgb, *nm);
-                }
+                add(&mut values, wavelengths_nm, 1.0, |nm| rgb_at(primaries, *rgb, nm));
                 values
             }
             Self::Extended { rgb, beyond } => wavelengths_nm.map(|nm| extended(*rgb, *beyond, nm)),

@@ -1,6 +1,12 @@
 //! Tabulated spectra, and the CIE daylight that the program holds.
 
+#![allow(
+    clippy::inline_always,
+    reason = "what is not inlined is not compiled for the instruction set that was chosen"
+)]
+
 use super::{Reflectance, planck};
+use crate::simd::{Lanes, Task, with_best};
 use std::sync::LazyLock;
 
 /// Values at wavelengths, linear in between and holding their ends beyond.
@@ -116,6 +122,7 @@ pub static D65: LazyLock<Daylight> = LazyLock::new(|| {
     Daylight { below: first / planck(300.0, 6504.0), above: last / planck(830.0, 6504.0), table: steps }
 });
 
+#[inline(always)]
 fn in_table(nm: f64) -> bool {
     (300.0..=830.0).contains(&nm)
 }
@@ -125,11 +132,12 @@ fn all_in_table<const N: usize>(nm: &[f64; N]) -> bool {
     nm.iter().fold(true, |all, nm| all & in_table(*nm))
 }
 
+#[inline(always)]
 fn place(nm: f64) -> f64 {
     (nm - 300.0) * (1.0 / 5.0)
 }
 
-/// Adds a spectrum, so many times. (A function, so that each spectrum has its own loop, which may run in vectors.)
+/// Adds a spectrum, so many times, in vectors.
 #[inline]
 pub(super) fn add<const N: usize>(
     sum: &mut [f64; N],
@@ -137,8 +145,29 @@ pub(super) fn add<const N: usize>(
     factor: f64,
     value: impl Fn(f64) -> f64,
 ) {
-    for (sum, nm) in sum.iter_mut().zip(nm) {
-        *sum += factor * value(*nm);
+    with_best(Adding { sum, nm, factor, value });
+}
+
+/// A spectrum to be added.
+struct Adding<'a, F, const N: usize> {
+    sum: &'a mut [f64; N],
+    nm: &'a [f64; N],
+    factor: f64,
+    value: F,
+}
+
+impl<F: Fn(f64) -> f64, const N: usize> Task for Adding<'_, F, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) {
+        let mut values = [0.0; N];
+        for (value, nm) in values.iter_mut().zip(self.nm) {
+            *value = (self.value)(*nm);
+        }
+        for (sum, value) in self.sum.iter_mut().zip(values) {
+            *sum += self.factor * value;
+        }
     }
 }
 
@@ -167,7 +196,13 @@ impl Filtered {
     #[inline]
     pub(super) fn add_each<const N: usize>(&self, sum: &mut [f64; N], nm: &[f64; N], factor: f64) {
         if !all_in_table(nm) {
-            return add(sum, nm, factor, |nm| D65.at(nm) * self.filter.at(nm));
+            let filter = self.filter.at_each(nm);
+            let mut daylight = [0.0; N];
+            D65.add_each(&mut daylight, nm, factor);
+            for ((sum, value), filter) in sum.iter_mut().zip(daylight).zip(filter) {
+                *sum += value * filter;
+            }
+            return;
         }
         add(sum, nm, factor, |nm| {
             let (row, part) = between_rows(place(nm));
@@ -184,7 +219,7 @@ impl Daylight {
         if in_table(wavelength_nm) { self.within(wavelength_nm) } else { self.beyond(wavelength_nm) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn within(&self, wavelength_nm: f64) -> f64 {
         let (row, part) = between_rows(place(wavelength_nm));
         let [value, step] = self.table[row];
@@ -197,12 +232,20 @@ impl Daylight {
         if all_in_table(nm) {
             add(sum, nm, factor, |nm| self.within(nm));
         } else {
-            add(sum, nm, factor, |nm| self.at(nm));
+            let mut beyond = [0.0; N];
+            add(&mut beyond, nm, factor, |nm| self.beyond(nm));
+            let mut within = [0.0; N];
+            add(&mut within, nm, factor, |nm| self.within(nm));
+            for (i, sum) in sum.iter_mut().enumerate() {
+                *sum += if in_table(nm[i]) { within[i] } else { beyond[i] };
+            }
         }
     }
 
+    #[inline(always)]
     fn beyond(&self, wavelength_nm: f64) -> f64 {
-        let scale = if wavelength_nm < 300.0 { self.below } else { self.above };
+        let (below, above) = (self.below, self.above);
+        let scale = if wavelength_nm < 300.0 { below } else { above };
         scale * planck(wavelength_nm, 6504.0)
     }
 }

@@ -6,15 +6,15 @@
 //! misses, so it only builds.)
 
 mod collapse;
-mod lanes;
+mod open;
 mod space;
 mod wide;
 
 use glam::{Vec3, Vec3A};
-pub(crate) use lanes::{Lanes, Task, with_best};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+pub(crate) use open::Open;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 pub use space::{Bounds, Line};
@@ -127,7 +127,7 @@ impl Tree {
     #[inline]
     fn walk_on(&self, mut walk: Entered, s_max: f64, mut visit: impl FnMut(u32, f64) -> f64) -> f64 {
         let mut limit = s_max;
-        let mut open = Open::new();
+        let mut open = Entries::new();
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
@@ -161,11 +161,11 @@ impl Tree {
 }
 
 /// Nodes still to be visited, with their entries; on the heap only in very deep trees.
-type Open = SmallVec<[(f32, u32); 32]>;
+type Entries = SmallVec<[(f32, u32); 32]>;
 
 /// The last of them that is entered before the limit.
 #[inline]
-fn before(open: &mut Open, t_max: f32) -> Option<u32> {
+fn before(open: &mut Entries, t_max: f32) -> Option<u32> {
     while let Some((entry, node)) = open.pop() {
         if entry <= t_max {
             return Some(node);

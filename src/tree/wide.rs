@@ -9,9 +9,10 @@
     reason = "what is not inlined is not compiled for the instruction set that was chosen"
 )]
 
-use super::lanes::{Lanes, Task, with_best};
+use super::open::Open;
 use super::space::{Entered, SLACK, Space};
 use super::{Bounds, Line};
+use crate::simd::{Lanes, Task, with_best};
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -114,7 +115,7 @@ impl Wide {
     /// The same without the best instruction set.
     #[cfg(test)]
     pub(crate) fn walk_plainly<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
-        walk_on(super::lanes::Plain, self, entered, s_max, visit)
+        walk_on(crate::simd::Plain, self, entered, s_max, visit)
     }
 }
 
@@ -143,7 +144,9 @@ fn walk_on<L: Lanes, V: Visit>(lanes: L, tree: &Wide, mut walk: Entered, s_max: 
     let mut at = tree.root;
     loop {
         let follow = if at & LEAF == 0 {
-            descend::<L, V>(lanes, &walk, &tree.nodes[at as usize], &mut open)
+            let node = &tree.nodes[at as usize];
+            let (near, met) = entries(lanes, &walk, node);
+            open.descend(&near, &node.child, met, V::BY_S)
         } else {
             let before = limit;
             limit = visit.look(lanes, blocks_of(at), limit);
@@ -158,40 +161,6 @@ fn walk_on<L: Lanes, V: Visit>(lanes: L, tree: &Wide, mut walk: Entered, s_max: 
         let Some(follow) = follow.or_else(|| open.pop(walk.t_max)) else { return limit };
         at = follow;
     }
-}
-
-/// The child that comes next, if the line meets any; the others stay open.
-#[inline(always)]
-fn descend<L: Lanes, V: Visit>(lanes: L, walk: &Entered, node: &Node, open: &mut Open) -> Option<u32> {
-    let (near, mut met) = entries(lanes, walk, node);
-    if met == 0 {
-        return None;
-    }
-    // Most often few are met.
-    let one = next(&mut met);
-    if met == 0 {
-        return Some(node.child[one]);
-    }
-    let two = next(&mut met);
-    let (a, b) = (told(&near, node, one), told(&near, node, two));
-    if met == 0 {
-        open.push(a.max(b));
-        return Some(a.min(b) as u32);
-    }
-    let mut some = [a, b, 0, 0, 0, 0, 0, 0];
-    let mut count = 2;
-    while met != 0 {
-        let lane = next(&mut met);
-        some[count & 7] = told(&near, node, lane);
-        count += 1;
-    }
-    if V::BY_S {
-        far_to_near(&mut some, count);
-    }
-    for place in 0..count - 1 {
-        open.push(some[place & 7]);
-    }
-    Some(some[(count - 1) & 7] as u32)
 }
 
 /// Where the line enters each child, and which it enters before the limit.
@@ -219,95 +188,4 @@ fn entries<L: Lanes>(lanes: L, walk: &Entered, node: &Node) -> ([f32; 8], u32) {
         if far < walk.t_max { far } else { walk.t_max }
     });
     (near, lanes.at_most_8(near, far))
-}
-
-/// The lowest of the children that are left.
-#[inline(always)]
-fn next(met: &mut u32) -> usize {
-    let lane = met.trailing_zeros() as usize & 7;
-    *met &= *met - 1;
-    lane
-}
-
-/// A child with its entry before it: no entry is negative, so that they are ordered as their bits are.
-#[inline(always)]
-fn told(near: &[f32; 8], node: &Node, lane: usize) -> u64 {
-    u64::from(near[lane].to_bits()) << 32 | u64::from(node.child[lane])
-}
-
-/// Puts the nearest last.
-#[inline(always)]
-fn far_to_near(some: &mut [u64; 8], count: usize) {
-    for end in 1..count {
-        let moved = some[end & 7];
-        let mut place = end;
-        while place > 0 && some[(place - 1) & 7] < moved {
-            some[place & 7] = some[(place - 1) & 7];
-            place -= 1;
-        }
-        some[place & 7] = moved;
-    }
-}
-
-/// Children still to be visited, with their entries; beyond what most walks need, on the heap.
-struct Open {
-    last: [u64; HERE],
-    count: usize,
-    before: Vec<u64>,
-}
-
-const HERE: usize = 32;
-
-impl Open {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { last: [0; HERE], count: 0, before: Vec::new() }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, told: u64) {
-        if self.count == HERE {
-            self.put_away();
-        }
-        self.last[self.count % HERE] = told;
-        self.count += 1;
-    }
-
-    /// The last of them that is entered before the limit.
-    #[inline(always)]
-    fn pop(&mut self, t_max: f32) -> Option<u32> {
-        loop {
-            if self.count == 0 && !self.fetch() {
-                return None;
-            }
-            self.count -= 1;
-            let told = self.last[self.count % HERE];
-            if f32::from_bits((told >> 32) as u32) <= t_max {
-                return Some(told as u32);
-            }
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn put_away(&mut self) {
-        self.before.extend_from_slice(&self.last);
-        self.count = 0;
-    }
-
-    /// Whether there were any that had been put away.
-    #[inline(always)]
-    fn fetch(&mut self) -> bool {
-        !self.before.is_empty() && self.fetch_some()
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn fetch_some(&mut self) -> bool {
-        let rest = self.before.len() - HERE;
-        self.last.copy_from_slice(&self.before[rest..]);
-        self.before.truncate(rest);
-        self.count = HERE;
-        true
-    }
 }

@@ -6,7 +6,8 @@
 )]
 
 use crate::mesh::Mesh;
-use crate::tree::{EMPTY, Lanes, Line, Numbers};
+use crate::simd::Lanes;
+use crate::tree::{EMPTY, Line, Numbers};
 use std::array::from_fn;
 
 /// Four triangles: their corners as the file has them, coordinate by coordinate, so that a leaf of the tree needs nothing

@@ -8,7 +8,8 @@
 mod block;
 
 use crate::mesh::Mesh;
-use crate::tree::{Bounds, Lanes, Line, Visit, Wide};
+use crate::simd::Lanes;
+use crate::tree::{Bounds, Line, Visit, Wide};
 use block::Block;
 pub use block::Sheared;
 use glam::DVec3;

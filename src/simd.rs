@@ -1,7 +1,8 @@
-//! Comparing several numbers at once. The sums and products of a walk are plain loops that the compiler turns into vector
-//! instructions; what comes of them it gathers badly, one bit at a time, so this is said for each instruction set.
+//! Several numbers at once, by the best instruction set that the processor has.
 //!
-//! Nothing here rounds: all sets give the same bits.
+//! Sums and products are plain loops that the compiler turns into vector instructions, once for each set ([`with_best`]). What
+//! comes of comparisons it gathers badly, one bit at a time, so that is said for each set ([`Lanes`]). All sets give the same
+//! bits: nothing here rounds, and no product is ever fused with a sum.
 
 #![allow(
     clippy::inline_always,

@@ -1,0 +1,299 @@
+//! Eight moving boxes at once.
+
+#![allow(
+    clippy::inline_always,
+    reason = "what is not inlined is not compiled for the instruction set that was chosen"
+)]
+
+use super::moving::{self, Moving};
+use crate::simd::{Lanes, Task, with_best};
+use crate::spacetime::{Event, SightRay};
+use glam::DVec3;
+use std::array::from_fn;
+
+/// A child that is a leaf.
+pub(super) const LEAF: u32 = 1 << 31;
+
+/// No child.
+pub(super) const NOBODY: u32 = u32::MAX;
+
+/// Boxes are this part of the coordinates they are compared with wider, and slopes this part of the light's: more than the rounding of
+/// either and of what is done with them.
+const ROUNDING: f32 = 16.0 * f32::EPSILON;
+
+/// From farther away, in units of the crowd, nothing of it can be told apart.
+const FARTHEST: f64 = 1e6;
+
+/// Those in which a crowd is about as large as 1, with its middle at the origin.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Units {
+    origin: Event,
+    scale: f64,
+}
+
+impl Units {
+    /// Those of some boxes, each at its moment.
+    pub(super) fn around<'m>(boxes: impl Iterator<Item = &'m Moving> + Clone) -> Self {
+        let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for one in boxes {
+            (first, last) = (first.min(one.moment), last.max(one.moment));
+            (lo, hi) = (lo.min(one.lo), hi.max(one.hi));
+        }
+        let size = 0.5 * (hi - lo).max_element().max(last - first).max(1e-200);
+        Self { origin: Event::new(0.5 * first + 0.5 * last, 0.5 * lo + 0.5 * hi), scale: 1.0 / size }
+    }
+}
+
+/// A ray in these units; s counts them too.
+pub(super) struct Asked {
+    start: [f32; 3],
+    moment: f32,
+    // What it moves by, as its time goes by 1.
+    step: [f32; 3],
+    // More than what rounding adds to a distance.
+    pad: f32,
+    pub(super) s_max: f32,
+    length: f64,
+}
+
+impl Asked {
+    /// None for a ray from too far away.
+    #[inline]
+    pub(super) fn new(ray: &SightRay, s_max: f64, units: &Units) -> Option<Self> {
+        let from = ray.event - units.origin;
+        let (start, moment) = (from.x * units.scale, from.t * units.scale);
+        let length = ray.k.t * units.scale;
+        let own = start.abs().max_element() + moment.abs();
+        let numbers = ray.event.x.abs().max_element() + ray.event.t.abs();
+        let exact = moving::ROUNDING * numbers * units.scale;
+        if !(own < FARTHEST && exact < 1.0 && length > 0.0 && length < f64::INFINITY) {
+            return None;
+        }
+        let mut asked = Self {
+            start: start.as_vec3().to_array(),
+            moment: moment as f32,
+            step: (ray.k.x / ray.k.t).as_vec3().to_array(),
+            pad: ROUNDING * (own as f32 + 2.0) + exact as f32,
+            s_max: f32::MAX,
+            length,
+        };
+        asked.limit(s_max);
+        Some(asked)
+    }
+
+    #[inline]
+    pub(super) fn limit(&mut self, s_max: f64) {
+        self.s_max = (s_max * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
+    }
+}
+
+/// Eight moving boxes, lane by lane, and where they go on.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Node {
+    moment: [f32; 8],
+    // By axis.
+    lo: [[f32; 8]; 3],
+    hi: [[f32; 8]; 3],
+    v_lo: [[f32; 8]; 3],
+    v_hi: [[f32; 8]; 3],
+    // An inner child: its index in `nodes`. A leaf: the number of a rest frame.
+    pub(super) child: [u32; 8],
+    // The bits of those lanes that have one.
+    there: u32,
+    // Whether what is in each box has one velocity.
+    rigid: bool,
+}
+
+impl Node {
+    /// Without any box.
+    pub(super) const EMPTY: Self = Self {
+        moment: [0.0; 8],
+        lo: [[0.0; 8]; 3],
+        hi: [[0.0; 8]; 3],
+        v_lo: [[0.0; 8]; 3],
+        v_hi: [[0.0; 8]; 3],
+        child: [NOBODY; 8],
+        there: 0,
+        rigid: true,
+    };
+
+    pub(super) fn set(&mut self, lane: usize, child: u32, moving: &Moving, units: &Units) {
+        let place = |x: DVec3| ((x - units.origin.x) * units.scale).as_vec3();
+        let moment = (moving.moment - units.origin.t) * units.scale;
+        self.moment[lane] = moment as f32;
+        let (lo, hi) = (place(moving.lo), place(moving.hi));
+        // The moment is rounded too, and what is inside moves no faster than light. Of the units' own origin the last digits are lost.
+        let own = units.origin.x.abs().max_element() + units.origin.t.abs();
+        let far = lo.abs().max(hi.abs()).max_element() + self.moment[lane].abs() + 1.0;
+        let pad = ROUNDING * far + (moving::ROUNDING * own * units.scale) as f32;
+        for axis in 0..3 {
+            self.lo[axis][lane] = lo[axis] - pad;
+            self.hi[axis][lane] = hi[axis] + pad;
+            self.v_lo[axis][lane] = moving.v_lo[axis] as f32;
+            self.v_hi[axis][lane] = moving.v_hi[axis] as f32;
+        }
+        self.child[lane] = child;
+        self.there |= 1 << lane;
+        self.rigid &= moving.v_lo == moving.v_hi;
+    }
+
+    /// Where a ray may enter each box, and the bits of those that it may enter before the limit.
+    #[inline]
+    pub(super) fn entries(&self, ray: &Asked) -> ([f32; 8], u32) {
+        if self.rigid {
+            let (near, met) = with_best(Rigid { node: self, ray });
+            return (near, met & self.there);
+        }
+        // The ray goes back in time: Δ = ahead - s.
+        let ahead: [f32; 8] = from_fn(|i| ray.moment - self.moment[i]);
+        let turn: [f32; 8] = from_fn(|i| ahead[i].max(0.0).min(ray.s_max));
+        let stretch = |v_lo, v_hi, within| with_best(Stretch { node: self, ray, v_lo, v_hi, within });
+        let (late, met_late) = stretch(&self.v_lo, &self.v_hi, (&[0.0; 8], &turn));
+        let (early, met_early) = stretch(&self.v_hi, &self.v_lo, (&turn, &[ray.s_max; 8]));
+        (
+            from_fn(|i| if met_late >> i & 1 == 1 { late[i] } else { early[i] }),
+            (met_late | met_early) & self.there,
+        )
+    }
+}
+
+/// Part of a ray, for each box: the first s at which it is within the faces, which move with these velocities, and the bits
+/// of those boxes in which it is at all.
+struct Stretch<'a> {
+    node: &'a Node,
+    ray: &'a Asked,
+    v_lo: &'a [[f32; 8]; 3],
+    v_hi: &'a [[f32; 8]; 3],
+    within: (&'a [f32; 8], &'a [f32; 8]),
+}
+
+impl Task for Stretch<'_> {
+    type Output = ([f32; 8], u32);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+        let Self { node, ray, .. } = self;
+        let ahead: [f32; 8] = from_fn(|i| ray.moment - node.moment[i]);
+        let pad: [f32; 8] = from_fn(|i| ray.pad + ROUNDING * ahead[i].abs());
+        let mut within = (*self.within.0, *self.within.1);
+        for axis in 0..3 {
+            let (x, k) = (ray.start[axis], ray.step[axis]);
+            let (lo, hi) = (&node.lo[axis], &node.hi[axis]);
+            let (v_lo, v_hi) = (&self.v_lo[axis], &self.v_hi[axis]);
+            let room: [f32; 8] = from_fn(|i| x - lo[i] - v_lo[i] * ahead[i] + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| k - v_lo[i] - ROUNDING));
+            let room: [f32; 8] = from_fn(|i| hi[i] + v_hi[i] * ahead[i] - x + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| v_hi[i] - k - ROUNDING));
+        }
+        let (first, last) = within;
+        let last = last.map(|last| last * (1.0 + ROUNDING));
+        (first, lanes.at_most_8(first, last))
+    }
+}
+
+/// The same for all of a ray, where what is in each box has one velocity: the box rests, and the ray goes by.
+struct Rigid<'a> {
+    node: &'a Node,
+    ray: &'a Asked,
+}
+
+/// No slope is less, so that nothing is infinite. (Below `ROUNDING` nothing is said by an axis.)
+const FLATTEST: f32 = 1e-12;
+
+impl Task for Rigid<'_> {
+    type Output = ([f32; 8], u32);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output {
+        let Self { node, ray } = self;
+        let ahead: [f32; 8] = from_fn(|i| ray.moment - node.moment[i]);
+        let pad: [f32; 8] = from_fn(|i| ray.pad + ROUNDING * ahead[i].abs());
+        let (mut first, mut last) = ([0.0_f32; 8], [ray.s_max; 8]);
+        for axis in 0..3 {
+            let (x, k) = (ray.start[axis], ray.step[axis]);
+            let (lo, hi, v) = (&node.lo[axis], &node.hi[axis], &node.v_lo[axis]);
+            let per_slope: [f32; 8] = from_fn(|i| {
+                let slope = k - v[i];
+                1.0 / if slope.abs() > FLATTEST { slope } else { FLATTEST }
+            });
+            let place: [f32; 8] = from_fn(|i| x - v[i] * ahead[i]);
+            let one: [f32; 8] = from_fn(|i| (place[i] - hi[i] - pad[i]) * per_slope[i]);
+            let other: [f32; 8] = from_fn(|i| (place[i] - lo[i] + pad[i]) * per_slope[i]);
+            let slack: [f32; 8] = from_fn(|i| ROUNDING * (1.0 + per_slope[i].abs()));
+            first = from_fn(|i| {
+                let enter = if one[i] < other[i] { one[i] } else { other[i] };
+                let enter = enter - enter.abs() * slack[i];
+                if enter > first[i] { enter } else { first[i] }
+            });
+            last = from_fn(|i| {
+                let leave = if one[i] < other[i] { other[i] } else { one[i] };
+                let leave = leave + leave.abs() * slack[i];
+                if leave < last[i] { leave } else { last[i] }
+            });
+        }
+        (first, lanes.at_most_8(first, last))
+    }
+}
+
+/// What is left of stretches of s where `room >= s closing`.
+#[inline(always)]
+fn beyond((first, last): ([f32; 8], [f32; 8]), room: &[f32; 8], closing: &[f32; 8]) -> ([f32; 8], [f32; 8]) {
+    // Along a face it is beyond it, or not, for ever: room / 0. (The sum makes a negative zero a positive one.)
+    let s: [f32; 8] = from_fn(|i| room[i] / (closing[i] + 0.0));
+    let after: [f32; 8] = from_fn(|i| if closing[i] < 0.0 { s[i] } else { f32::NEG_INFINITY });
+    let before: [f32; 8] = from_fn(|i| if closing[i] < 0.0 { f32::INFINITY } else { s[i] });
+    (
+        from_fn(|i| if after[i] > first[i] { after[i] } else { first[i] }),
+        from_fn(|i| if before[i] < last[i] { before[i] } else { last[i] }),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::Plain;
+    use crate::spacetime::FourVector;
+
+    /// Multiples of a golden ratio, parts of 1: spread evenly enough.
+    fn spread(i: u32) -> DVec3 {
+        let part = |ratio: f64| 2.0 * (f64::from(i) * ratio).fract() - 1.0;
+        DVec3::new(part(0.618_033_988_749), part(0.754_877_666_247), part(0.569_840_290_998))
+    }
+
+    #[test]
+    fn all_instruction_sets_enter_the_same_boxes() {
+        let mut entered = 0;
+        for number in 0..500 {
+            let boxes: [Moving; 7] = from_fn(|i| {
+                let i = 7 * number + i as u32;
+                let (lo, v_lo) = (spread(3 * i), 0.5 * spread(5 * i));
+                let looser = if number % 2 == 0 { 0.0 } else { 0.01 };
+                let (hi, v_hi) = (lo + 0.8, v_lo + looser);
+                Moving { moment: spread(11 * i).x, lo, hi, v_lo, v_hi }
+            });
+            let units = Units::around(boxes.iter());
+            let mut node = Node::EMPTY;
+            for (lane, one) in boxes.iter().enumerate() {
+                node.set(lane, lane as u32, one, &units);
+            }
+            let k = FourVector::new(1.0, spread(13 * number).normalize());
+            let ray = SightRay { event: Event::new(1.0, spread(17 * number)), k };
+            let ray = Asked::new(&ray, 5.0, &units).unwrap();
+            let (start, end) = ([0.0; 8], [ray.s_max; 8]);
+            let stretch = || Stretch {
+                node: &node,
+                ray: &ray,
+                v_lo: &node.v_lo,
+                v_hi: &node.v_hi,
+                within: (&start, &end),
+            };
+            assert_eq!(with_best(stretch()), stretch().run(Plain));
+            let rigid = || Rigid { node: &node, ray: &ray };
+            assert_eq!(with_best(rigid()), rigid().run(Plain));
+            entered += node.entries(&ray).1.count_ones();
+        }
+        assert!((100..3000).contains(&entered), "{entered}");
+    }
+}
