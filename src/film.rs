@@ -2,6 +2,7 @@
 
 use crate::color::{RGB_FROM_XYZ, srgb_encode};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// How much light around a pixel's centre counts for it. The weights are carried by the density of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -105,12 +106,12 @@ impl Development {
     /// sRGB bytes of a whole picture.
     pub fn develop(&self, negative: &Negative) -> Vec<u8> {
         let steps = EncodingSteps::new();
-        let mut bytes = Vec::with_capacity(negative.xyz.len() * 3);
-        for xyz in &negative.xyz {
+        let developed = |xyz: &[f32; 3]| {
             let rgb = self.display(DVec3::from(xyz.map(f64::from)));
-            bytes.extend(rgb.to_array().map(|channel| steps.byte(channel)));
-        }
-        bytes
+            rgb.to_array().map(|channel| steps.byte(channel))
+        };
+        let pixels: Vec<[u8; 3]> = negative.xyz.par_iter().map(developed).collect();
+        pixels.into_flattened()
     }
 
     /// Linear sRGB in 0 to 1: what is too bright rolls off at its own hue, and colours that no screen can show go

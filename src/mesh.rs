@@ -4,7 +4,7 @@
 //! range, numbers finite, attributes as long as the positions or empty.
 
 use glam::{Vec2, Vec3};
-use std::collections::BTreeMap;
+use rayon::prelude::*;
 
 /// A run of triangles with one material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,17 +44,15 @@ impl Mesh {
     /// Whether its triangles close it in: every edge is passed as often one way as the other.
     pub fn is_closed(&self) -> bool {
         let place = |i: u32| self.positions[i as usize].to_array().map(|c| (c + 0.0).to_bits());
-        let mut passed: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
-        for [a, b, c] in self.triangles.iter().map(|triangle| triangle.map(place)) {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                if from < to {
-                    *passed.entry([from, to]).or_default() += 1;
-                } else if to < from {
-                    *passed.entry([to, from]).or_default() -= 1;
-                }
-            }
-        }
-        passed.values().all(|sum| *sum == 0)
+        let around = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(place);
+            [(a, b), (b, c), (c, a)]
+        };
+        let passed = |(from, to)| if from < to { ([from, to], 1) } else { ([to, from], -1) };
+        let edges = self.triangles.par_iter().flat_map_iter(around).filter(|(from, to)| from != to);
+        let mut edges: Vec<([[u32; 3]; 2], i32)> = edges.map(passed).collect();
+        edges.par_sort_unstable();
+        edges.chunk_by(|a, b| a.0 == b.0).all(|same| same.iter().map(|(_, way)| way).sum::<i32>() == 0)
     }
 
     /// The material of a triangle, an index into the asset's materials.

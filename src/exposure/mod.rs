@@ -113,6 +113,7 @@ fn by_pixel<T: Send + Clone>(width: u32, height: u32, of: impl Fn(usize, usize) 
     let bands: Vec<Vec<T>> = tiles(height)
         .collect::<Vec<_>>()
         .into_par_iter()
+        .with_max_len(1) // Else one thread may be left with many when the others are done.
         .map(|rows| {
             let places = |columns: Range<usize>| {
                 rows.clone().flat_map(move |row| columns.clone().map(move |c| (c, row)))

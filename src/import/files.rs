@@ -9,6 +9,8 @@ use crate::error::{Error, Fault, Place};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// The most bytes that one asset may take: files as read, plus numbers and pictures as decoded.
 const MEMORY_LIMIT: u64 = 8 << 30;
@@ -37,11 +39,12 @@ impl Refusal {
 }
 
 /// The folder that may be read and what is left of the memory limit.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Files {
     /// Without links.
     root: PathBuf,
-    left: u64,
+    /// Shared by all who read the asset at the same time.
+    left: Arc<AtomicU64>,
 }
 
 impl Files {
@@ -56,7 +59,7 @@ impl Files {
                 _ => Error::machine(path, "looking for it", source),
             })
         };
-        let mut files = Self { root: real(root)?, left: MEMORY_LIMIT };
+        let mut files = Self { root: real(root)?, left: Arc::new(MEMORY_LIMIT.into()) };
         let file = real(model)?;
         let at_model = |refusal: Refusal| Error::from(refusal.at(Place::file(model)));
         files.inside(&file).map_err(at_model)?;
@@ -119,6 +122,7 @@ impl Files {
         };
         self.take(length)?;
         let mut bytes = Vec::new();
+        bytes.try_reserve_exact(length as usize).map_err(|source| wrong(source.to_string()))?;
         let file = File::open(path).map_err(|source| wrong(source.to_string()))?;
         // The file may grow while it is read, but not past what was taken for it.
         file.take(length).read_to_end(&mut bytes).map_err(|source| wrong(source.to_string()))?;
@@ -127,16 +131,13 @@ impl Files {
 
     /// Counts bytes about to be allocated.
     pub(super) fn take(&mut self, bytes: u64) -> Result<(), Refusal> {
-        match self.left.checked_sub(bytes) {
-            Some(left) => {
-                self.left = left;
-                Ok(())
-            }
-            None => Err(Refusal::new(
-                format!("needs {bytes} bytes more, and {} of {MEMORY_LIMIT} are left", self.left),
+        let taken = self.left.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(bytes));
+        taken.map(|_| ()).map_err(|left| {
+            Refusal::new(
+                format!("needs {bytes} bytes more, and {left} of {MEMORY_LIMIT} are left"),
                 "split the model, or make its pictures smaller",
-            )),
-        }
+            )
+        })
     }
 }
 

@@ -137,10 +137,19 @@ const REPORT_LIMIT: usize = 50;
 /// The extension says which format it is, in capitals or not. No file outside of the folder `root` is read,
 /// not even through a link. The error holds all faults found, each with the file and the element.
 pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
+    load_with(path, root, |_| ()).map(|(asset, ())| asset)
+}
+
+/// The same, with what is made of its meshes: in a glTF file beside the decoding of its pictures, which takes as long.
+pub fn load_with<T: Send>(
+    path: &Path,
+    root: &Path,
+    make: impl FnOnce(&[Arc<Mesh>]) -> T + Send,
+) -> Result<(Asset, T), Error> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-    let read = match extension.as_str() {
-        "glb" | "gltf" => gltf::read,
-        "obj" => obj::read,
+    let is_gltf = match extension.as_str() {
+        "glb" | "gltf" => true,
+        "obj" => false,
         _ => {
             return Err(Error::fault(
                 Place::file(path),
@@ -154,7 +163,15 @@ pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
         Job { path: path.to_owned(), folder, files, report: Report::default(), faults: 0, warnings: 0 };
     // Two of the crates underneath have been seen to panic on malformed files. Everything that does so is
     // checked before; this is for what nobody has seen yet.
-    let asset = catch_unwind(AssertUnwindSafe(|| read(&bytes, &mut job))).unwrap_or_else(|_| {
+    let read = || {
+        if is_gltf {
+            return gltf::read(&bytes, &mut job, make);
+        }
+        let asset = obj::read(&bytes, &mut job)?;
+        let made = make(&asset.meshes);
+        Some((asset, made))
+    };
+    let asset = catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
         let what = "reading this file failed in a way that was not foreseen";
         job.found(Fault::new(Place::file(path), what, "please report it with the file"));
         None
@@ -166,10 +183,10 @@ pub fn load(path: &Path, root: &Path) -> Result<Asset, Error> {
     more(&mut report.faults, faults, path, "faults");
     more(&mut report.warnings, warnings, path, "warnings");
     let warnings = std::mem::take(&mut report.warnings);
-    let mut asset = report.finish(asset)?;
+    let (mut asset, made) = report.finish(asset)?;
     path.clone_into(&mut asset.path);
     asset.warnings = warnings;
-    Ok(asset)
+    Ok((asset, made))
 }
 
 /// Reads a picture file that the user names.
@@ -205,6 +222,21 @@ struct Job {
 }
 
 impl Job {
+    /// A part of the job that is done beside it.
+    fn part(&self) -> Self {
+        let (path, folder, files) = (self.path.clone(), self.folder.clone(), self.files.clone());
+        Self { path, folder, files, report: Report::default(), faults: 0, warnings: 0 }
+    }
+
+    /// Takes over what a part of the job has found.
+    fn found_by(&mut self, part: Self) {
+        let Report { faults, warnings } = part.report;
+        self.faults += part.faults - faults.len();
+        self.warnings += part.warnings - warnings.len();
+        faults.into_iter().for_each(|fault| self.found(fault));
+        warnings.into_iter().for_each(|warning| self.noticed(warning));
+    }
+
     /// Takes note of a fault.
     fn found(&mut self, fault: Fault) {
         self.faults += 1;

@@ -3,6 +3,7 @@
 use crate::error::{Error, Report, nearest_name};
 use crate::import::{self, Asset};
 use crate::manifest::{AssetRef, Body, Manifest, ModelFile};
+use crate::mesh::Mesh;
 use crate::triangles::Triangles;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -49,10 +50,8 @@ impl Models {
             missing(file, manifest, report);
         }
         let folder = manifest_path.parent().unwrap_or(Path::new(""));
-        let read: Vec<Result<Model, Error>> = files
-            .par_iter()
-            .map(|file| import::load(file, trusted_folder(file, folder)).map(Model::new))
-            .collect();
+        let read: Vec<Result<Model, Error>> =
+            files.par_iter().map(|file| Model::load(file, trusted_folder(file, folder))).collect();
         let mut models = BTreeMap::new();
         for (file, model) in files.into_iter().zip(read) {
             match model {
@@ -115,9 +114,10 @@ impl Chosen {
 }
 
 impl Model {
-    fn new(asset: Asset) -> Self {
-        let triangles = asset.meshes.par_iter().map(|mesh| Arc::new(Triangles::new(mesh.clone()))).collect();
-        Self { asset, triangles }
+    fn load(file: &Path, root: &Path) -> Result<Self, Error> {
+        let tree = |mesh: &Arc<Mesh>| Arc::new(Triangles::new(mesh.clone()));
+        let trees = |meshes: &[Arc<Mesh>]| meshes.par_iter().map(tree).collect();
+        import::load_with(file, root, trees).map(|(asset, triangles)| Self { asset, triangles })
     }
 }
 

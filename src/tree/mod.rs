@@ -10,7 +10,7 @@ mod open;
 mod space;
 mod wide;
 
-use glam::{Vec3, Vec3A};
+use glam::Vec3;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
@@ -41,6 +41,7 @@ pub struct Tree {
     items: Vec<u32>,
 }
 
+#[derive(Clone, Copy)]
 struct Boxed(Aabb);
 
 impl obvhs::Boundable for Boxed {
@@ -50,11 +51,18 @@ impl obvhs::Boundable for Boxed {
 }
 
 /// obvhs's tree over the groups of equal boxes.
-fn built(space: &Space, boxes: &[Bounds], params: BvhBuildParams) -> (Bvh2, Groups) {
-    let unit: Vec<(Vec3, Vec3)> = boxes.par_iter().map(|b| space.padded(b)).collect();
-    let groups = Groups::of_equal(&unit);
-    let first = |&(begin, _): &(u32, u32)| unit[groups.order[begin as usize] as usize];
-    let boxed: Vec<Boxed> = groups.ranges.par_iter().map(first).map(|(lo, hi)| Boxed(aabb(lo, hi))).collect();
+fn built(
+    space: &Space,
+    count: usize,
+    of: impl Fn(usize) -> Bounds + Sync + Send,
+    params: BvhBuildParams,
+) -> (Bvh2, Groups) {
+    let mut boxed: Vec<Boxed> = (0..count).into_par_iter().map(|i| Boxed(space.padded(&of(i)))).collect();
+    let groups = Groups::of_equal(&boxed);
+    if groups.ranges.len() < count {
+        boxed =
+            groups.ranges.iter().map(|(begin, _)| boxed[groups.order[*begin as usize] as usize]).collect();
+    }
     let mut seconds = Duration::ZERO;
     (build_bvh2(&boxed, params, &mut seconds), groups)
 }
@@ -62,12 +70,13 @@ fn built(space: &Space, boxes: &[Bounds], params: BvhBuildParams) -> (Bvh2, Grou
 impl Tree {
     /// Over items with these boxes, which must be finite.
     pub fn build(boxes: &[Bounds]) -> Self {
-        let mut tree =
-            Self { space: Space::around(boxes), nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
+        let of = |i: usize| boxes[i];
+        let space = Space::around(boxes.len(), of);
+        let mut tree = Self { space, nodes: Vec::new(), items: Vec::with_capacity(boxes.len()) };
         if boxes.is_empty() {
             return tree;
         }
-        let (built, groups) = built(&tree.space, boxes, BvhBuildParams::medium_build());
+        let (built, groups) = built(&tree.space, boxes.len(), of, BvhBuildParams::medium_build());
         tree.adopt(&built, &groups);
         tree
     }
@@ -174,22 +183,19 @@ fn before(open: &mut Entries, t_max: f32) -> Option<u32> {
     None
 }
 
-fn aabb(lo: Vec3, hi: Vec3) -> Aabb {
-    Aabb::new(Vec3A::from(lo), Vec3A::from(hi))
-}
-
 /// Items with the same box, told once to the builder: it takes quadratic time over equal boxes.
 struct Groups {
+    // All items, and then those that are not alone in their groups once more, group by group.
     order: Vec<u32>,
     // Where each group begins and ends in `order`; groups go by their first members.
     ranges: Vec<(u32, u32)>,
 }
 
 impl Groups {
-    fn of_equal(boxes: &[(Vec3, Vec3)]) -> Self {
+    fn of_equal(boxes: &[Boxed]) -> Self {
         let key = |i: u32| {
-            let (lo, hi) = boxes[i as usize];
-            [lo.x, lo.y, lo.z, hi.x, hi.y, hi.z].map(f32::to_bits)
+            let Aabb { min, max } = boxes[i as usize].0;
+            [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits)
         };
         // Fowler, Noll and Vo's hash, word by word: what differs in it is not equal.
         let hash = |i: u32| {
@@ -197,31 +203,68 @@ impl Groups {
                 (hash ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3)
             })
         };
-        let mut hashed: Vec<u64> =
-            (0..boxes.len() as u32).into_par_iter().map(|i| hash(i) >> 32 << 32 | u64::from(i)).collect();
-        hashed.par_sort_unstable();
-        let mut order: Vec<u32> = Vec::with_capacity(boxes.len());
-        // The end of the group of which an item is the first; zero for the others.
-        let mut begun = vec![(0, 0); boxes.len()];
-        for alike in hashed.chunk_by(|a, b| a >> 32 == b >> 32) {
-            let begin = order.len();
-            order.extend(alike.iter().map(|hashed| *hashed as u32));
-            if alike.len() > 1 {
-                order[begin..].sort_unstable_by_key(|&i| (key(i), i));
-            }
-            let mut place = begin as u32;
-            for equal in order[begin..].chunk_by(|&a, &b| key(a) == key(b)) {
-                let end = place + equal.len() as u32;
-                begun[equal[0] as usize] = (place, end);
-                place = end;
+        let count = boxes.len() as u32;
+        let hashed: Vec<u64> =
+            (0..count).into_par_iter().map(|i| hash(i) >> 32 << 32 | u64::from(i)).collect();
+        let mut order: Vec<u32> = (0..count).into_par_iter().collect();
+        let mut ranges: Vec<(u32, u32)> = (0..count).into_par_iter().map(|i| (i, i + 1)).collect();
+        for alike in repeated(hashed).chunk_by(|a, b| a >> 32 == b >> 32) {
+            let mut alike: SmallVec<[u32; 8]> = alike.iter().map(|hashed| *hashed as u32).collect();
+            alike.sort_unstable_by_key(|&i| (key(i), i));
+            for equal in alike.chunk_by(|&a, &b| key(a) == key(b)).filter(|equal| equal.len() > 1) {
+                let begin = order.len() as u32;
+                order.extend_from_slice(equal);
+                equal.iter().for_each(|item| ranges[*item as usize] = (0, 0));
+                ranges[equal[0] as usize] = (begin, order.len() as u32);
             }
         }
-        begun.retain(|(_, end)| *end > 0);
-        Self { order, ranges: begun }
+        ranges.retain(|(_, end)| *end > 0);
+        Self { order, ranges }
     }
 
     fn members(&self, group: u32) -> &[u32] {
         let (begin, end) = self.ranges[group as usize];
         &self.order[begin as usize..end as usize]
+    }
+}
+
+/// Sorts those whose upper halves may be there more than once: of most meshes only a few.
+fn repeated(hashed: Vec<u64>) -> Vec<u64> {
+    // By the first bits of each, more than 16 places for one: whether they were there once, and twice.
+    let bits = (hashed.len().ilog2() + 5).clamp(6, 32);
+    let mut seen = vec![[0_u64; 2]; 1 << bits >> 6];
+    let place = |hashed: u64| ((hashed >> (64 - bits) >> 6) as usize, 1 << (hashed >> (64 - bits) & 63));
+    for number in &hashed {
+        let (word, bit) = place(*number);
+        let [once, twice] = &mut seen[word];
+        *twice |= *once & bit;
+        *once |= bit;
+    }
+    let again = |number: &u64| {
+        let (word, bit) = place(*number);
+        seen[word][1] & bit != 0
+    };
+    let mut repeated: Vec<u64> = hashed.into_par_iter().filter(again).collect();
+    repeated.par_sort_unstable();
+    repeated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_boxes_are_one_group_at_the_place_of_the_first() {
+        for count in [1, 2, 1_000] {
+            let kind = |i: u32| i * i % 619;
+            let boxed =
+                |i: u32| Boxed(Aabb::new(Vec3::splat(-1.0).into(), Vec3::splat(kind(i) as f32).into()));
+            let groups = Groups::of_equal(&(0..count).map(boxed).collect::<Vec<_>>());
+            let firsts = (0..count).filter(|&i| (0..i).all(|before| kind(before) != kind(i)));
+            let expected: Vec<Vec<u32>> =
+                firsts.map(|first| (first..count).filter(|&i| kind(i) == kind(first)).collect()).collect();
+            let found = (0..groups.ranges.len() as u32).map(|group| groups.members(group).to_vec());
+            assert_eq!(found.collect::<Vec<_>>(), expected);
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! Lines and boxes, and the units of a tree: those in which all that it holds lies within [-1, 1].
 
 use glam::{DVec3, Vec3};
+use obvhs::aabb::Aabb;
+use rayon::prelude::*;
 
 /// Half the widening of each box, in units in which the whole tree lies within [-1, 1].
 ///
@@ -71,10 +73,10 @@ pub(super) struct Space {
 }
 
 impl Space {
-    /// Those of a tree over these boxes.
-    pub(super) fn around(boxes: &[Bounds]) -> Self {
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |a, b| a.with(*b));
-        if boxes.is_empty() {
+    /// Those of a tree over so many items with these boxes.
+    pub(super) fn around(count: usize, of: impl Fn(usize) -> Bounds + Sync + Send) -> Self {
+        let bounds = (0..count).into_par_iter().map(of).reduce(|| Bounds::EMPTY, Bounds::with);
+        if count == 0 {
             return Self { bounds, entrance: bounds, centre: DVec3::ZERO, scale: 1.0 };
         }
         let centre = 0.5 * bounds.lo + 0.5 * bounds.hi;
@@ -92,9 +94,10 @@ impl Space {
     }
 
     /// A box in these units, padded.
-    pub(super) fn padded(&self, b: &Bounds) -> (Vec3, Vec3) {
+    pub(super) fn padded(&self, b: &Bounds) -> Aabb {
         let lo = ((b.lo - self.centre) * self.scale).as_vec3() - PAD;
-        (lo, ((b.hi - self.centre) * self.scale).as_vec3() + PAD)
+        let hi = ((b.hi - self.centre) * self.scale).as_vec3() + PAD;
+        Aabb::new(lo.into(), hi.into())
     }
 
     /// The beginning of a walk: moves the start to the box in `f64`, and only then goes to `f32`. None for a line that

@@ -74,13 +74,13 @@ pub(crate) trait Visit {
 }
 
 impl Wide {
-    /// Over items with these boxes, which must be finite; and the items' numbers, block by block.
-    pub(crate) fn build(boxes: &[Bounds]) -> (Self, Vec<Numbers>) {
-        let space = Space::around(boxes);
-        if boxes.is_empty() {
+    /// Over so many items with these boxes, which must be finite; and the items' numbers, block by block.
+    pub(crate) fn build(count: usize, of: impl Fn(usize) -> Bounds + Sync + Send) -> (Self, Vec<Numbers>) {
+        let space = Space::around(count, &of);
+        if count == 0 {
             return (Self { space, nodes: Vec::new(), root: LEAF }, Vec::new());
         }
-        let (nodes, root, blocks) = super::collapse::collapse(&space, boxes);
+        let (nodes, root, blocks) = super::collapse::collapse(&space, count, of);
         (Self { space, nodes, root }, blocks)
     }
 

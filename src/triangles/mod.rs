@@ -42,12 +42,9 @@ pub struct Triangles {
 impl Triangles {
     /// Builds the tree.
     pub fn new(mesh: Arc<Mesh>) -> Self {
-        let boxes: Vec<Bounds> = mesh
-            .triangles
-            .par_iter()
-            .map(|t| Bounds::of(t.map(|i| mesh.positions[i as usize].as_dvec3())))
-            .collect();
-        let (tree, numbers) = Wide::build(&boxes);
+        let bounds =
+            |number: usize| Bounds::of(mesh.triangles[number].map(|i| mesh.positions[i as usize].as_dvec3()));
+        let (tree, numbers) = Wide::build(mesh.triangles.len(), bounds);
         let blocks = numbers.into_par_iter().map(|numbers| Block::of(&mesh, numbers)).collect();
         Self { mesh, tree, blocks }
     }

@@ -46,6 +46,13 @@ fn others(written: &json::Material) -> Option<&Map<String, Value>> {
     written.extensions.as_ref().map(|extensions| &extensions.others)
 }
 
+/// Whether [`Material::has_normal_map`] will be true of it.
+pub(super) fn has_normal_map(written: &json::Material) -> bool {
+    let coat = others(written).and_then(|others| others.get("KHR_materials_clearcoat"));
+    let coat = coat.filter(|coat| coat["clearcoatFactor"].as_f64().is_some_and(|strength| strength > 0.0));
+    written.normal_texture.is_some() || coat.is_some_and(|coat| coat.get("clearcoatNormalTexture").is_some())
+}
+
 fn unknown(extension: &str) -> bool {
     !SUPPORTED.contains(&extension)
 }

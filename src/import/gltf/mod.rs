@@ -16,40 +16,71 @@ mod primitive;
 mod scene;
 mod texture;
 
-use super::{Asset, Job, Material};
+use super::{Asset, Instance, Job, Material};
 use crate::mesh::Mesh;
 use document::Document;
 use gltf::json;
 use std::sync::Arc;
 
-/// Reads the bytes of a `.gltf` or `.glb` file.
-pub(super) fn read(bytes: &[u8], job: &mut Job) -> Option<Asset> {
+/// Reads the bytes of a `.gltf` or `.glb` file, and makes something of its meshes while its pictures are decoded.
+pub(super) fn read<T: Send>(
+    bytes: &[u8],
+    job: &mut Job,
+    make: impl FnOnce(&[Arc<Mesh>]) -> T + Send,
+) -> Option<(Asset, T)> {
     let document = document::open(bytes, job)?;
-    let (materials, ignored) = material::all(&document, job);
-    let placed = scene::place(&document, job)?;
+    let mut part = job.part();
+    let ((materials, ignored), placed) = rayon::join(
+        || material::all(&document, job),
+        || {
+            let mut placed = scene::place(&document, &mut part)?;
+            let read = meshes(&document, &mut placed.instances, &mut part)?;
+            let made = make(&read.meshes);
+            Some((placed, read, made))
+        },
+    );
+    job.found_by(part);
+    let (placed, Meshes { meshes, skins }, made) = placed?;
+    for skin in &skins {
+        skin.check_textures(&materials, job);
+    }
     let mut asset = Asset {
         nodes: placed.nodes,
+        meshes,
         materials,
         ignored,
+        instances: placed.instances,
         lights: placed.lights,
         cameras: placed.cameras,
         animations: document.animations.clone(),
         ..Asset::default()
     };
-    let mut numbers = vec![None; document.root.meshes.len()];
-    for mut instance in placed.instances {
-        let written = instance.mesh;
-        let number = *numbers.get_mut(written)?.get_or_insert_with(|| {
-            asset.meshes.push(Arc::new(mesh(&document, written, &asset.materials, job)));
-            asset.meshes.len() - 1
-        });
-        instance.mesh = number;
-        asset.instances.push(instance);
-    }
     if asset.meshes.iter().any(|mesh| uses(mesh, asset.materials.len())) {
         asset.materials.push(Material::default());
     }
-    Some(asset)
+    Some((asset, made))
+}
+
+/// The meshes that are placed.
+#[derive(Default)]
+struct Meshes {
+    meshes: Vec<Arc<Mesh>>,
+    skins: Vec<primitive::Skin>,
+}
+
+/// Reads the meshes of the instances, which then go by their new numbers.
+fn meshes(document: &Document<'_>, instances: &mut [Instance], job: &mut Job) -> Option<Meshes> {
+    let mut numbers = vec![None; document.root.meshes.len()];
+    let mut read = Meshes::default();
+    for instance in instances {
+        let written = instance.mesh;
+        instance.mesh = *numbers.get_mut(written)?.get_or_insert_with(|| {
+            let mesh = mesh(document, written, &mut read.skins, job);
+            read.meshes.push(Arc::new(mesh));
+            read.meshes.len() - 1
+        });
+    }
+    Some(read)
 }
 
 /// Whether a mesh uses the material of a number.
@@ -58,7 +89,7 @@ fn uses(mesh: &Mesh, material: usize) -> bool {
 }
 
 /// One mesh with all of its primitives. What is at fault is left out and reported.
-fn mesh(document: &Document<'_>, number: usize, materials: &[Material], job: &mut Job) -> Mesh {
+fn mesh(document: &Document<'_>, number: usize, skins: &mut Vec<primitive::Skin>, job: &mut Job) -> Mesh {
     let mut mesh = Mesh::default();
     let Some(written) = document.root.meshes.get(number) else { return mesh };
     mesh.name = written.name.clone().unwrap_or_default();
@@ -66,10 +97,11 @@ fn mesh(document: &Document<'_>, number: usize, materials: &[Material], job: &mu
     for (i, part) in written.primitives.iter().enumerate() {
         let element = format!("meshes[{number}].primitives[{i}]");
         let Some(shape) = primitive::read(document, part, &element, job) else { continue };
+        let materials = &document.root.materials;
         let material = part.material.map_or(materials.len(), |index| index.value());
-        primitive::check_textures(&shape, materials.get(material), &element, job);
-        let bumpy = materials.get(material).is_some_and(Material::has_normal_map);
+        let bumpy = materials.get(material).is_some_and(material::has_normal_map);
         lacks_tangents |= bumpy && shape.tangents.is_empty();
+        skins.push(primitive::Skin::of(&shape, material, element.clone()));
         if let Err(refusal) = super::shape::append(&mut mesh, shape, material as u32) {
             job.refused(element, refusal);
         }

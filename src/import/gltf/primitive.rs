@@ -306,15 +306,29 @@ fn finish_normals(shape: &mut Shape, element: &str, job: &mut Job) -> Option<()>
     Some(())
 }
 
-/// Warns when a primitive lacks the texture coordinates that its material's textures need.
-pub(super) fn check_textures(shape: &Shape, material: Option<&Material>, element: &str, job: &mut Job) {
-    let Some(material) = material else { return };
-    let sets: BTreeSet<u8> = material.textures().map(|(_, texture)| texture.uv_set).collect();
-    for set in sets {
-        if shape.uvs.get(usize::from(set)).is_some_and(Vec::is_empty) {
-            let what =
-                format!("its material `{}` has a texture, but there is no TEXCOORD_{set}", material.name);
-            job.warn(element, what, "unwrap the mesh before exporting it");
+/// What the textures of a primitive need to know of it.
+pub(super) struct Skin {
+    element: String,
+    material: usize,
+    /// Which texture coordinates it has.
+    uvs: [bool; 2],
+}
+
+impl Skin {
+    pub(super) fn of(shape: &Shape, material: usize, element: String) -> Self {
+        Self { element, material, uvs: [0, 1].map(|set| !shape.uvs[set].is_empty()) }
+    }
+
+    /// Warns when a primitive lacks the texture coordinates that its material's textures need.
+    pub(super) fn check_textures(&self, materials: &[Material], job: &mut Job) {
+        let Some(material) = materials.get(self.material) else { return };
+        let sets: BTreeSet<u8> = material.textures().map(|(_, texture)| texture.uv_set).collect();
+        for set in sets {
+            if self.uvs.get(usize::from(set)) == Some(&false) {
+                let what =
+                    format!("its material `{}` has a texture, but there is no TEXCOORD_{set}", material.name);
+                job.warn(&self.element, what, "unwrap the mesh before exporting it");
+            }
         }
     }
 }
