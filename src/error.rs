@@ -3,6 +3,7 @@
 //! Nothing here prints. A stage that reads input gathers every [`Fault`] it finds in a [`Report`] and
 //! goes on as long as it can, so that a user sees all of them at once.
 
+use crate::inputs::Inputs;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -106,6 +107,8 @@ pub struct Report {
     pub faults: Vec<Fault>,
     /// Warnings in the order found.
     pub warnings: Vec<Fault>,
+    /// What was read.
+    pub inputs: Inputs,
 }
 
 impl Report {

@@ -17,6 +17,7 @@ pub mod exposure;
 pub mod film;
 pub mod fresnel;
 pub mod import;
+pub mod inputs;
 pub mod lamp;
 pub mod manifest;
 pub mod mesh;

@@ -43,6 +43,7 @@ mod solids;
 mod spectrum;
 mod support;
 mod surroundings;
+mod survive;
 mod terrell;
 mod texture;
 mod tint;

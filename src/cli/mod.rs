@@ -3,7 +3,9 @@
 
 mod chart;
 mod check;
+mod examples;
 mod inspect;
+mod manual;
 mod progress;
 
 use crate::diagnostic;
@@ -13,6 +15,7 @@ use crate::plan::Plan;
 use crate::render;
 use crate::scene::{Scene, compose};
 use clap::{Args, Parser, Subcommand};
+use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER};
 use std::io::{IsTerminal, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -26,26 +29,26 @@ struct Cli {
     command: Command,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  terrell render manifests/flyby.yaml
-  terrell render manifests/flyby.yaml --exposure 40 --size 1920x1080 --samples 16
-  terrell render manifests/flyby.yaml --exposure 40 --tolerance 1
-  terrell chart manifests/flyby.yaml
-  terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
-  terrell check manifests/flyby.yaml
-  terrell inspect assets/monkey.glb";
-
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Render the pictures and the film of manifests
+    #[command(after_help = RENDER)]
     Render(RenderArgs),
     /// Find every fault of a manifest, and say what its scene needs
+    #[command(after_help = CHECK)]
     Check(CheckArgs),
     /// Chart what each setting costs in time against what it gives in accuracy, for one exposure
+    #[command(after_help = CHART)]
     Chart(chart::ChartArgs),
     /// Show what is in a model file: nodes, materials, lights, cameras
+    #[command(after_help = INSPECT)]
     Inspect(inspect::InspectArgs),
+    /// Print what a shell needs to complete commands and flags
+    #[command(after_help = COMPLETIONS)]
+    Completions(manual::CompletionsArgs),
+    /// Print the page of the manual, or write all pages
+    #[command(after_help = MAN)]
+    Man(manual::ManArgs),
 }
 
 /// Each thread has a stack of its own.
@@ -77,6 +80,9 @@ struct RenderArgs {
     /// The folder for the pictures, instead of the manifest's
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+    /// Render all anew, though pictures are there
+    #[arg(long)]
+    restart: bool,
     /// Leave the film out, only pictures
     #[arg(long)]
     no_video: bool,
@@ -124,6 +130,8 @@ pub fn run() -> ExitCode {
         Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
         Command::Chart(args) => pool(args.threads).and_then(|pool| pool.install(|| chart::run(&args))),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Completions(args) => manual::completions(&args),
+        Command::Man(args) => manual::man(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -235,6 +243,7 @@ fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> R
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
     }
+    plan.restart = args.restart;
     if args.samples.is_some() {
         plan.tolerance = None; // Asked for by hand, whatever the manifest has.
     }

@@ -16,6 +16,7 @@ pub(super) struct Progress {
     started: Instant,
     last_line: Option<Instant>,
     done: usize,
+    kept: usize,
     pictures: usize,
     // The least settled so far.
     worst: Option<Settling>,
@@ -43,13 +44,28 @@ impl Progress {
             gauge.enable_steady_tick(Duration::from_millis(250));
         }
         let tolerance = plan.tolerance.unwrap_or(f64::INFINITY);
-        Self { gauge, started: Instant::now(), last_line: None, done: 0, pictures, worst: None, tolerance }
+        Self {
+            gauge,
+            started: Instant::now(),
+            last_line: None,
+            done: 0,
+            kept: 0,
+            pictures,
+            worst: None,
+            tolerance,
+        }
     }
 
     /// Shows a step.
     pub(super) fn show(&mut self, step: &Step) {
         let path = match step {
             Step::Metered(_) => return,
+            Step::Waiting(folder) => {
+                let folder = folder.display();
+                return self
+                    .say(&format!("another terrell is rendering into {folder}: waiting until it is done"));
+            }
+            Step::Kept(count) => return self.keep(*count),
             Step::Film(path) => return self.say(&format!("film {}", path.display())),
             Step::Picture(path, settling) => {
                 if let Some(settling) = settling {
@@ -88,10 +104,24 @@ impl Progress {
         let due = self.last_line.unwrap_or(self.started).elapsed() >= BETWEEN_LINES;
         if self.gauge.is_none() && due {
             self.last_line = Some(Instant::now());
-            let each = self.started.elapsed().as_secs_f64() / self.done as f64;
+            let each = self.started.elapsed().as_secs_f64() / (self.done - self.kept) as f64;
             let left = each * (self.pictures - self.done) as f64;
             self.say(&format!("{}/{} {}  {left:.0} s left", self.done, self.pictures, path.display()));
         }
+    }
+
+    /// Some pictures are there already.
+    fn keep(&mut self, count: usize) {
+        self.done += count;
+        self.kept = count;
+        if let Some(gauge) = &self.gauge {
+            gauge.inc(count as u64);
+            gauge.reset_eta();
+            if self.done == self.pictures {
+                gauge.finish_and_clear();
+            }
+        }
+        self.say(&format!("{count} of {} pictures are there already", self.pictures));
     }
 
     fn say(&self, line: &str) {

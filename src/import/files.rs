@@ -6,6 +6,7 @@
 //! has.
 
 use crate::error::{Error, Fault, Place};
+use crate::inputs::Inputs;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -45,6 +46,8 @@ pub(super) struct Files {
     root: PathBuf,
     /// Shared by all who read the asset at the same time.
     left: Arc<AtomicU64>,
+    /// What was read beside the model itself.
+    pub(super) inputs: Inputs,
 }
 
 impl Files {
@@ -59,11 +62,12 @@ impl Files {
                 _ => Error::machine(path, "looking for it", source),
             })
         };
-        let mut files = Self { root: real(root)?, left: Arc::new(MEMORY_LIMIT.into()) };
+        let mut files =
+            Self { root: real(root)?, left: Arc::new(MEMORY_LIMIT.into()), inputs: Inputs::default() };
         let file = real(model)?;
         let at_model = |refusal: Refusal| Error::from(refusal.at(Place::file(model)));
         files.inside(&file).map_err(at_model)?;
-        let bytes = files.read(&file).map_err(at_model)?;
+        let bytes = files.bytes(&file).map_err(at_model)?;
         let folder = file.parent().map(Path::to_owned).unwrap_or_default();
         Ok((files, folder, bytes))
     }
@@ -114,6 +118,12 @@ impl Files {
 
     /// The bytes of a file found by [`Files::find`].
     pub(super) fn read(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
+        let bytes = self.bytes(path)?;
+        self.inputs.add(path, &bytes);
+        Ok(bytes)
+    }
+
+    fn bytes(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
         let wrong = |what: String| Refusal::new(format!("cannot read `{}`: {what}", path.display()), "");
         let length = match path.metadata() {
             Ok(data) if data.is_file() => data.len(),

@@ -25,6 +25,7 @@ mod picture;
 mod shape;
 
 use crate::error::{Error, Fault, Place, Report};
+use crate::inputs::Inputs;
 use crate::mesh::Mesh;
 use files::Files;
 use glam::DAffine3;
@@ -127,6 +128,8 @@ pub struct Asset {
     pub animations: Vec<String>,
     /// What the file has and this program passes over, and what looks like a mistake.
     pub warnings: Vec<Fault>,
+    /// The file and all others that it names.
+    pub inputs: Inputs,
 }
 
 /// The most faults (and warnings) that one file may report; the rest are only counted.
@@ -171,7 +174,9 @@ pub fn load_with<T: Send>(
         let made = make(&asset.meshes);
         Some((asset, made))
     };
-    let asset = catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
+    let (asset, digest) =
+        rayon::join(|| catch_unwind(AssertUnwindSafe(read)), || crate::inputs::digest(&bytes));
+    let asset = asset.unwrap_or_else(|_| {
         let what = "reading this file failed in a way that was not foreseen";
         job.found(Fault::new(Place::file(path), what, "please report it with the file"));
         None
@@ -179,20 +184,23 @@ pub fn load_with<T: Send>(
     if asset.is_none() && job.faults == 0 {
         job.found(Fault::new(Place::file(path), "this file could not be read", ""));
     }
-    let Job { mut report, faults, warnings, .. } = job;
+    let Job { mut report, faults, warnings, files, .. } = job;
     more(&mut report.faults, faults, path, "faults");
     more(&mut report.warnings, warnings, path, "warnings");
     let warnings = std::mem::take(&mut report.warnings);
     let (mut asset, made) = report.finish(asset)?;
     path.clone_into(&mut asset.path);
     asset.warnings = warnings;
+    asset.inputs = files.inputs;
+    asset.inputs.files.insert(path.to_owned(), digest);
     Ok((asset, made))
 }
 
-/// Reads a picture file that the user names.
-pub fn picture_file(path: &Path) -> Result<crate::texture::Picture, Error> {
+/// Reads a picture file that the user names, and takes note of it.
+pub fn picture_file(path: &Path, inputs: &mut Inputs) -> Result<crate::texture::Picture, Error> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let (mut files, _, bytes) = Files::open(path, folder)?;
+    inputs.add(path, &bytes);
     let name = path.to_string_lossy();
     picture::decode(&bytes, &name, &mut files).map_err(|refusal| Error::from(refusal.at(Place::file(path))))
 }
@@ -230,7 +238,8 @@ impl Job {
 
     /// Takes over what a part of the job has found.
     fn found_by(&mut self, part: Self) {
-        let Report { faults, warnings } = part.report;
+        self.files.inputs.extend(part.files.inputs);
+        let Report { faults, warnings, .. } = part.report;
         self.faults += part.faults - faults.len();
         self.warnings += part.warnings - warnings.len();
         faults.into_iter().for_each(|fault| self.found(fault));

@@ -13,6 +13,7 @@
 //! ~~~
 
 mod body;
+mod canonical;
 mod course;
 mod glass;
 mod light;
@@ -155,11 +156,15 @@ pub fn parse_with(
     let source = Source::File { path: path.to_owned(), text: text.into() };
     let manifest = yaml::parse(&source, text, &mut found)
         .and_then(|root| overrides::apply(root, overrides, &mut found))
-        .and_then(|root| read(path, &root, &mut found));
+        .and_then(|root| {
+            report.inputs.manifest = Some(canonical::digest(&root));
+            read(path, &root, &mut found)
+        });
     let sound = found.faults.is_empty();
     found.faults.sort_by_key(|fault| place_order(path, &fault.place));
     report.faults.append(&mut found.faults);
     report.warnings.append(&mut found.warnings);
+    report.inputs.extend(found.inputs);
     manifest.filter(|_| sound)
 }
 

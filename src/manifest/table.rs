@@ -92,6 +92,7 @@ fn csv(node: &Node, reader: &mut Reader<'_>) -> Read<Vec<Row>> {
             return Err(reader.fault(&node.place, what, "paths are relative to the manifest's folder"));
         }
     };
+    reader.report.inputs.add(&path, text.as_bytes());
     let (mut rows, mut sound) = (Vec::new(), true);
     for (from, kept) in table_lines(&text) {
         let place = || Place::Text { path: path.clone(), text: text.clone(), span: from..from + kept.len() };

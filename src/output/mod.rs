@@ -16,7 +16,7 @@ mod yuv;
 
 pub use self::exr::{Layers, write_exr};
 pub use self::movie::Movie;
-pub use self::png::{Picture8, write_png};
+pub use self::png::{Picture8, png_text, read_png, write_png};
 
 use crate::error::Error;
 use std::fs::{self, File, OpenOptions};
@@ -38,7 +38,22 @@ pub fn write_whole(
         .and_then(|()| fs::rename(&temporary.path, path))
         .map_err(|source| Error::machine(path, "writing", source))?;
     temporary.keep();
+    // So that its name is on the disk too. Where folders cannot be opened, that is so anyway, or cannot be helped.
+    let _ = path.parent().map(File::open).map(|folder| folder.and_then(|folder| folder.sync_all()));
     Ok(())
+}
+
+/// Removes what a process that was killed has left of files of these names. (Nobody may be writing them.)
+pub fn remove_parts(folder: &Path, of: impl Fn(&str) -> bool) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let hidden = name.strip_prefix('.').and_then(|name| name.strip_suffix(".part"));
+        // The number of the process, and that of the file.
+        if hidden.and_then(|name| name.rsplit_once('.')).is_some_and(|(name, _)| of(name)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 fn fill(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {

@@ -2,7 +2,8 @@
 
 use super::write_whole;
 use crate::error::Error;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufReader};
 use std::path::Path;
 
 /// A picture of 8 bits a channel, encoded as sRGB (IEC 61966-2-1).
@@ -22,6 +23,32 @@ pub struct Picture8<'a> {
 /// suffices and `iTXt` (UTF-8) elsewhere. The same picture gives the same bytes.
 pub fn write_png(path: &Path, picture: &Picture8<'_>) -> Result<(), Error> {
     write_whole(path, |file| encode(file, picture).map_err(io::Error::from))
+}
+
+/// The text under a keyword in a PNG file; none if there is none, or if it is no PNG file.
+pub fn png_text(path: &Path, keyword: &str) -> Option<String> {
+    let reader = png::Decoder::new(BufReader::new(File::open(path).ok()?)).read_info().ok()?;
+    let info = reader.info();
+    let plain = info.uncompressed_latin1_text.iter().find(|text| text.keyword == keyword);
+    plain.map(|text| text.text.clone())
+}
+
+/// Red, green and blue of every pixel of a PNG file that [`write_png`] has written, `size` pixels across and down; an error
+/// if anything is wrong with it.
+pub fn read_png(path: &Path, size: (u32, u32)) -> Result<Vec<u8>, Error> {
+    let read = || -> io::Result<Vec<u8>> {
+        let mut reader = png::Decoder::new(BufReader::new(File::open(path)?)).read_info()?;
+        let info = reader.info();
+        if (info.color_type, info.bit_depth, info.size()) != (png::ColorType::Rgb, png::BitDepth::Eight, size)
+        {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "it is another kind of picture"));
+        }
+        let mut rgb = vec![0; 3 * size.0 as usize * size.1 as usize];
+        reader.next_frame(&mut rgb)?;
+        reader.finish()?;
+        Ok(rgb)
+    };
+    read().map_err(|source| Error::machine(path, "reading", source))
 }
 
 fn encode(file: impl io::Write, picture: &Picture8<'_>) -> Result<(), png::EncodingError> {

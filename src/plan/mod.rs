@@ -7,11 +7,13 @@ mod limits;
 use crate::error::Report;
 use crate::exposure::Sampling;
 use crate::film::Reconstruction;
+use crate::inputs::{self, Digest};
 use crate::manifest::{self, Amount, Clock, Filter, Manifest};
 use crate::output::movie;
 use crate::scene::Scene;
 use crate::spacetime::Course;
 use crate::spectrum::{Source, Spectrum};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// One picture of a film.
@@ -60,9 +62,53 @@ pub struct Plan {
     pub seconds_per_metre: f64,
     /// Written into every picture: what it was made from.
     pub text: Vec<(&'static str, String)>,
+    /// What the pictures are made of; none where that is not known, and pictures that are there already are rendered anew.
+    pub inputs: Option<(Digest, Digest)>,
+    /// Whether pictures that are there already are rendered anew.
+    pub restart: bool,
+}
+
+/// This program.
+pub const VERSION: &str = concat!("terrell ", env!("CARGO_PKG_VERSION"));
+
+/// By what a picture is known to belong to a film: it is the same in all of its pictures.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fingerprint {
+    /// Of what the manifest says, and flags.
+    pub manifest: String,
+    /// Of the files that it reads.
+    pub files: String,
+    /// The program.
+    pub version: String,
+}
+
+impl fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} {}", self.manifest, self.files, self.version)
+    }
+}
+
+impl Fingerprint {
+    /// As written in a picture.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut parts = text.splitn(3, ' ').map(str::to_owned);
+        Some(Self { manifest: parts.next()?, files: parts.next()?, version: parts.next()? })
+    }
 }
 
 impl Plan {
+    /// By what its pictures are known.
+    pub fn fingerprint(&self) -> Option<Fingerprint> {
+        let (manifest, files) = self.inputs?;
+        // Flags may have taken the tolerance away.
+        let manifest = inputs::digest([&manifest[..], format!("{:?}", self.tolerance).as_bytes()].concat());
+        let short = |digest: Digest| {
+            let [a, b, c, d, e, f, g, h, ..] = digest;
+            format!("{:016x}", u64::from_be_bytes([a, b, c, d, e, f, g, h]))
+        };
+        Some(Fingerprint { manifest: short(manifest), files: short(files), version: VERSION.to_owned() })
+    }
+
     /// What a manifest asks for.
     ///
     /// Faults: a film that cannot be written, and what is beyond the limits of the arithmetic.
@@ -74,7 +120,6 @@ impl Plan {
         let exposures = exposures(&manifest.exposures, scene);
         let film_rate = film.map(|film| film.rate).filter(|_| film_fits(manifest, exposures.len(), report));
         limits::check(manifest, scene, &exposures, report);
-        let version = concat!("terrell ", env!("CARGO_PKG_VERSION"));
         Self {
             exposures,
             sampling: Sampling {
@@ -96,7 +141,9 @@ impl Plan {
             folder: manifest.output.folder.clone(),
             film_file: file,
             seconds_per_metre: 1.0 / manifest.light_speed,
-            text: vec![("Software", version.to_owned()), ("Source", stem.into_owned())],
+            text: vec![("Software", VERSION.to_owned()), ("Source", stem.into_owned())],
+            inputs: report.inputs.manifest.map(|manifest| (manifest, report.inputs.of_files())),
+            restart: false,
         }
     }
 }

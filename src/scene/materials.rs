@@ -121,7 +121,7 @@ impl Workshop {
         if let Some(known) = self.pictures.get(&file.value) {
             return known.clone();
         }
-        let picture = match import::picture_file(&file.value) {
+        let picture = match import::picture_file(&file.value, &mut report.inputs) {
             Ok(picture) => Some(Arc::new(picture)),
             Err(Error::Input(faults)) => {
                 for fault in faults {

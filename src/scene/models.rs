@@ -57,6 +57,7 @@ impl Models {
             match model {
                 Ok(model) => {
                     report.warnings.extend(model.asset.warnings.iter().cloned());
+                    report.inputs.extend(model.asset.inputs.clone());
                     models.insert(file.to_owned(), model);
                 }
                 Err(Error::Input(faults)) => report.faults.extend(faults),

@@ -46,7 +46,10 @@ fn origin(origin: &StarOrigin, report: &mut Report) -> Vec<Star> {
             seeded(u64::from(*seed), *count as usize, kinds).map(alike).collect()
         }
         StarOrigin::Catalogue(file) => match manifest::read_text(&file.value) {
-            Ok(text) => parse_catalogue(&file.value, &text.into(), report).unwrap_or_default(),
+            Ok(text) => {
+                report.inputs.add(&file.value, text.as_bytes());
+                parse_catalogue(&file.value, &text.into(), report).unwrap_or_default()
+            }
             Err(why) => {
                 let place: Place = file.place.clone();
                 report.fault(place, format!("the catalogue `{}`: {why}", file.value.display()), "");

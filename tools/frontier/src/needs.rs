@@ -32,7 +32,7 @@ fn film(folder: &Path, out: &Path, text: &str) -> Film {
     let made = manifest.as_ref().and_then(|manifest| {
         let scene = compose(manifest, &path, &mut report)?;
         let plan = Plan::of(manifest, &scene, &path, &mut report);
-        Some(Film { scene, plan: Plan { folder: out.to_owned(), ..plan } })
+        Some(Film { scene, plan: Plan { folder: out.to_owned(), restart: true, ..plan } })
     });
     made.filter(|_| report.faults.is_empty()).unwrap_or_else(|| panic!("{:?}\n{text}", report.faults))
 }

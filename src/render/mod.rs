@@ -1,5 +1,7 @@
 //! The film: exposures one after another, developed alike, to files.
 
+mod folder;
+
 use crate::color::RGB_FROM_XYZ;
 use crate::error::Error;
 use crate::exposure::{Sampling, Uncertainty, expose, expose_settled, first_hits};
@@ -16,6 +18,10 @@ use std::sync::mpsc::{Receiver, sync_channel};
 /// What has been done.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
+    /// Another process renders into this folder, and is waited for.
+    Waiting(PathBuf),
+    /// So many pictures are on the disk already.
+    Kept(usize),
     /// The brightness of the film is known: this luminance (cd/m²) becomes white.
     Metered(f64),
     /// A picture is on the disk; how far it is settled, if that was asked for.
@@ -42,8 +48,15 @@ struct Print {
     rgb: Vec<u8>,
 }
 
-/// Renders the exposures of the plan whose indices are within `chosen` and calls `tell` after each step. The film
-/// is made when all are.
+/// What the writer gets.
+enum Sheet {
+    // The picture of this exposure is there already.
+    Kept(usize),
+    New(Box<Print>),
+}
+
+/// Renders the exposures of the plan whose indices are within `chosen` and calls `tell` after each step. Pictures of the
+/// same film that are there are kept. The film is made when all are.
 pub fn render(
     scene: &Scene,
     plan: &Plan,
@@ -51,6 +64,10 @@ pub fn render(
     tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
     let mut tell = tell;
+    let folder = folder::open(plan, &chosen, &mut tell)?;
+    if !folder.kept.is_empty() {
+        tell(Step::Kept(folder.kept.len()));
+    }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
     let development = Development { white: white(scene, plan) };
     tell(Step::Metered(development.white));
@@ -62,6 +79,12 @@ pub fn render(
         let writer = scope.spawn(move || file_all(plan, movie, &inbox, tell));
         let mut last = None;
         for exposure in exposures {
+            if folder.kept.contains(&exposure.index) {
+                if prints.send(Sheet::Kept(exposure.index)).is_err() {
+                    break;
+                }
+                continue;
+            }
             let exposed: (Negative, Option<Settling>) = last
                 .take()
                 .filter(|_| plan.still)
@@ -69,7 +92,8 @@ pub fn render(
             if plan.still {
                 last = Some(exposed.clone());
             }
-            if prints.send(print(scene, plan, exposure, &development, exposed)).is_err() {
+            let print = print(scene, plan, exposure, &development, exposed);
+            if prints.send(Sheet::New(Box::new(print))).is_err() {
                 break; // The writer has stopped and says why.
             }
         }
@@ -121,17 +145,27 @@ fn print(
 fn file_all(
     plan: &Plan,
     mut movie: Option<Movie>,
-    inbox: &Receiver<Print>,
+    inbox: &Receiver<Sheet>,
     mut tell: impl FnMut(Step),
 ) -> Result<(), Error> {
-    for print in inbox {
-        let name = output::exposure_name(print.exposure.index, plan.exposures.len());
-        let path = plan.folder.join(name);
+    let text = labels(plan);
+    let size = (plan.sampling.width, plan.sampling.height);
+    for sheet in inbox {
+        let print = match sheet {
+            Sheet::New(print) => print,
+            Sheet::Kept(index) => {
+                if let Some(movie) = &mut movie {
+                    movie.push(&output::read_png(&folder::picture(plan, index), size)?)?;
+                }
+                continue;
+            }
+        };
+        let path = folder::picture(plan, print.exposure.index);
         if let Some(firsts) = &print.firsts {
-            write_exr(plan, &path.with_extension("exr"), &print, firsts)?;
+            write_exr(plan, &path.with_extension("exr"), &print, (firsts, &text))?;
         }
         let Negative { width, height, .. } = print.negative;
-        output::write_png(&path, &Picture8 { width, height, rgb: &print.rgb, text: &plan.text })?;
+        output::write_png(&path, &Picture8 { width, height, rgb: &print.rgb, text: &text })?;
         if let Some(movie) = &mut movie {
             movie.push(&print.rgb)?;
         }
@@ -144,11 +178,17 @@ fn file_all(
     Ok(())
 }
 
+/// What is written into every picture.
+fn labels(plan: &Plan) -> Vec<(&'static str, String)> {
+    let fingerprint = plan.fingerprint().map(|fingerprint| (folder::KEYWORD, fingerprint.to_string()));
+    plan.text.iter().cloned().chain(fingerprint).collect()
+}
+
 fn write_exr(
     plan: &Plan,
     path: &std::path::Path,
     print: &Print,
-    firsts: &[Option<First>],
+    (firsts, text): (&[Option<First>], &[(&str, String)]),
 ) -> Result<(), Error> {
     let rgb = |xyz: &[f32; 3]| (*RGB_FROM_XYZ * DVec3::from(xyz.map(f64::from))).as_vec3().to_array();
     let number =
@@ -164,7 +204,7 @@ fn write_exr(
         doppler: &doppler,
         emission_time: &emission_time,
         body: &firsts.iter().map(|f| f.as_ref().map_or(-1, |first| first.body as i32)).collect::<Vec<_>>(),
-        text: &plan.text,
+        text,
     };
     output::write_exr(path, &layers)
 }

@@ -1,0 +1,43 @@
+//! What a film is made of: what the manifest says, and the files that it reads. By that a film is known again.
+
+use sha2::{Digest as _, Sha256};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The SHA-256 of something.
+pub type Digest = [u8; 32];
+
+/// The digest of some bytes.
+pub fn digest(bytes: impl AsRef<[u8]>) -> Digest {
+    Sha256::digest(bytes).into()
+}
+
+/// What was read.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// What the manifest says that concerns its pictures, however it is written; flags included.
+    pub manifest: Option<Digest>,
+    /// The contents of all other files.
+    pub files: BTreeMap<PathBuf, Digest>,
+}
+
+impl Inputs {
+    /// Takes note of a file.
+    pub fn add(&mut self, path: &Path, bytes: &[u8]) {
+        self.files.insert(path.to_owned(), digest(bytes));
+    }
+
+    /// Takes over what was read elsewhere.
+    pub fn extend(&mut self, other: Self) {
+        self.manifest = self.manifest.or(other.manifest);
+        self.files.extend(other.files);
+    }
+
+    /// The digest of all files, wherever they are.
+    pub fn of_files(&self) -> Digest {
+        let mut all: Vec<&Digest> = self.files.values().collect();
+        all.sort_unstable();
+        all.dedup();
+        digest(all.into_iter().flatten().copied().collect::<Vec<u8>>())
+    }
+}
