@@ -33,11 +33,14 @@ impl Inputs {
         self.files.extend(other.files);
     }
 
-    /// The digest of all files, wherever they are.
+    /// The digest of all files with their names, whatever folders they are in.
     pub fn of_files(&self) -> Digest {
-        let mut all: Vec<&Digest> = self.files.values().collect();
+        let named = |(path, content): (&PathBuf, &Digest)| {
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            (digest(name), *content)
+        };
+        let mut all: Vec<(Digest, Digest)> = self.files.iter().map(named).collect();
         all.sort_unstable();
-        all.dedup();
-        digest(all.into_iter().flatten().copied().collect::<Vec<u8>>())
+        digest(all.into_iter().flat_map(|(name, content)| [name, content]).flatten().collect::<Vec<u8>>())
     }
 }

@@ -4,6 +4,7 @@ mod faults;
 mod hostile;
 mod language;
 mod reference;
+mod schema;
 mod units;
 mod values;
 

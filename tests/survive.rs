@@ -186,6 +186,45 @@ fn files_that_have_changed_make_another_film() {
 }
 
 #[test]
+fn files_that_have_changed_places_make_another_film() {
+    let place = Place::new();
+    let table = |name: &str, value: &str| {
+        std::fs::write(place.0.path().join(name), format!("400, 0.2\n700, {value}\n")).unwrap();
+    };
+    let wall = |file: &str| format!("material: {{ diffuse: {{ table: {file} }} }} }}");
+    let floor =
+        format!("{{ asset: floor, {}\n  - {{ asset: floor, at: 0 -9 0 m, {}", wall("a.csv"), wall("b.csv"));
+    place.write(&MANIFEST.replace("{ asset: floor }", &floor));
+    table("a.csv", "0.3");
+    table("b.csv", "0.4");
+    place.done(&["--exposure", "3"]);
+    table("a.csv", "0.4");
+    table("b.csv", "0.3");
+    assert!(place.refused(&["--exposure", "4"]).contains("a file that it reads has changed"));
+}
+
+#[test]
+fn picture_under_another_number_is_rendered_again() {
+    let (place, whole) = (Place::new(), Place::new());
+    whole.done(&[]);
+    place.done(&[]);
+    std::fs::copy(place.path("0001.png"), place.path("0002.png")).unwrap();
+    std::fs::write(place.path("0004.png"), "").unwrap();
+    assert!(place.done(&[]).contains("10 of 12 pictures are there already"));
+    same(&place, &whole);
+}
+
+#[cfg(unix)]
+#[test]
+fn lock_that_is_a_link_is_refused_and_what_it_names_is_left() {
+    let place = Place::new();
+    std::fs::create_dir(place.0.path().join("out")).unwrap();
+    std::os::unix::fs::symlink(place.0.path().join("film.yaml"), place.path(".terrell.lock")).unwrap();
+    assert!(place.refused(&[]).contains("`.terrell.lock` is there, and is no file"));
+    assert_eq!(std::fs::read_to_string(place.0.path().join("film.yaml")).unwrap(), MANIFEST);
+}
+
+#[test]
 fn beginning_anew_leaves_nothing_of_the_film_before() {
     let (place, whole) = (Place::new(), Place::new());
     place.done(&["--set", "exposures.count=14"]);

@@ -36,6 +36,13 @@ pub(super) const INSPECT: &str = "\
 Examples:
   terrell inspect assets/monkey.glb";
 
+pub(super) const SCHEMA: &str = "\
+Examples:
+  terrell schema --out manifests/terrell.schema.json
+
+An editor with a YAML language server uses it where a manifest begins with
+  # yaml-language-server: $schema=terrell.schema.json";
+
 pub(super) const COMPLETIONS: &str = "\
 Examples:
   terrell completions bash > ~/.local/share/bash-completion/completions/terrell

@@ -1,4 +1,4 @@
-//! What a shell and `man` know of the program, made from the same words as `--help`.
+//! What a shell, `man` and an editor know of the program, made from the same words as `--help` and the reference.
 
 use super::Cli;
 use crate::error::Error;
@@ -19,6 +19,22 @@ pub(super) struct ManArgs {
     /// A folder for all pages, one for each command, instead of the first to the standard output
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SchemaArgs {
+    /// A file to write it to, instead of the standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// Prints or writes the JSON Schema of manifests.
+pub(super) fn schema(args: &SchemaArgs) -> Result<(), Error> {
+    let schema = crate::manifest::schema();
+    match &args.out {
+        Some(path) => write_whole(path, |file| file.write_all(schema.as_bytes())),
+        None => super::print(&schema),
+    }
 }
 
 /// Prints what a shell completes by.

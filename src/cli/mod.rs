@@ -15,7 +15,7 @@ use crate::plan::Plan;
 use crate::render;
 use crate::scene::{Scene, compose};
 use clap::{Args, Parser, Subcommand};
-use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER};
+use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER, SCHEMA};
 use std::io::{IsTerminal, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -43,6 +43,9 @@ enum Command {
     /// Show what is in a model file: nodes, materials, lights, cameras
     #[command(after_help = INSPECT)]
     Inspect(inspect::InspectArgs),
+    /// Print the JSON Schema of manifests, by which editors complete keys and explain them
+    #[command(after_help = SCHEMA)]
+    Schema(manual::SchemaArgs),
     /// Print what a shell needs to complete commands and flags
     #[command(after_help = COMPLETIONS)]
     Completions(manual::CompletionsArgs),
@@ -130,6 +133,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
         Command::Chart(args) => pool(args.threads).and_then(|pool| pool.install(|| chart::run(&args))),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Schema(args) => manual::schema(&args),
         Command::Completions(args) => manual::completions(&args),
         Command::Man(args) => manual::man(&args),
     };

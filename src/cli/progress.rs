@@ -65,6 +65,12 @@ impl Progress {
                 return self
                     .say(&format!("another terrell is rendering into {folder}: waiting until it is done"));
             }
+            Step::Unlocked(folder) => {
+                let folder = folder.display();
+                return self.say(&format!(
+                    "{folder} is on a disk without locks: see that no other terrell renders there"
+                ));
+            }
             Step::Kept(count) => return self.keep(*count),
             Step::Film(path) => return self.say(&format!("film {}", path.display())),
             Step::Picture(path, settling) => {
@@ -84,9 +90,11 @@ impl Progress {
         }
         if last {
             let seconds = self.started.elapsed().as_secs_f64();
-            let what = if self.pictures == 1 { "picture" } else { "pictures" };
+            let made = self.pictures - self.kept;
+            let what = if made == 1 { "picture" } else { "pictures" };
+            let more = if self.kept > 0 { "more " } else { "" };
             let folder = path.parent().unwrap_or(path).display();
-            self.say(&format!("{} {what} in {folder}, {seconds:.1} s", self.pictures));
+            self.say(&format!("{made} {more}{what} in {folder}, {seconds:.1} s"));
             if let Some(Settling { error, samples }) = self.worst {
                 let reached = if error.p99 > self.tolerance {
                     format!("; {} was not reached: some pixels need more than they may have", self.tolerance)

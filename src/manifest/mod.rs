@@ -31,6 +31,7 @@ mod quantity;
 mod reader;
 mod record;
 mod reference;
+mod schema;
 mod solid;
 mod spectrum;
 mod surroundings;
@@ -51,6 +52,7 @@ pub use picture::{Clock, Effects, Exposures, Film, Filter, Output, Picture, Whit
 pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};
 pub use reference::reference;
+pub use schema::schema;
 pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};

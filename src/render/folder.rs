@@ -10,15 +10,15 @@ use crate::plan::{Fingerprint, Plan};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::Write;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The file that is locked while a film is rendered into the folder.
 const LOCK: &str = ".terrell.lock";
 
-/// The keyword under which pictures have the fingerprint.
-pub(super) const KEYWORD: &str = "Fingerprint";
+/// The keywords under which pictures have the fingerprint and their number.
+pub(super) const FINGERPRINT: &str = "Fingerprint";
+pub(super) const EXPOSURE: &str = "Exposure";
 
 /// A folder that is this process's alone until it is dropped.
 #[derive(Debug)]
@@ -34,61 +34,90 @@ pub(super) struct Folder {
 pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Step)) -> Result<Folder, Error> {
     std::fs::create_dir_all(&plan.folder)
         .map_err(|source| Error::machine(&plan.folder, "creating the folder", source))?;
+    let own = plan.fingerprint().filter(|_| !plan.restart);
+    if let Some(own) = &own {
+        // Before waiting, and again when nobody else writes.
+        refuse_others(plan, own, &there(plan)?)?;
+    }
     let lock = lock(plan, tell)?;
-    output::remove_parts(&plan.folder, |name| number(name).is_some() || name == plan.film_file);
-    let there = there(plan);
-    let kept = match plan.fingerprint() {
-        Some(own) if !plan.restart => {
-            refuse_others(plan, &own, &there)?;
-            let ours = there.into_par_iter().filter(|one| one.fingerprint.as_ref() == Some(&own));
-            ours.filter(|one| chosen.contains(&one.index) && is_whole(plan, one.index))
-                .map(|one| one.index)
-                .collect()
-        }
-        own => {
-            if chosen.len() == plan.exposures.len() {
-                remove_others(own.as_ref(), &there)?;
-            }
-            BTreeSet::new()
-        }
-    };
+    if lock.is_some() {
+        output::remove_parts(&plan.folder, |name| number(name).is_some() || name == plan.film_file);
+    }
+    let there = there(plan)?;
+    let mut kept = BTreeSet::new();
+    if let Some(own) = &own {
+        refuse_others(plan, own, &there)?;
+        let ours = there.into_par_iter().filter(|one| chosen.contains(&one.index) && one.is_whole(plan, own));
+        kept = ours.map(|one| one.index).collect();
+    } else if chosen.len() == plan.exposures.len() {
+        remove_others(plan.fingerprint().as_ref(), &there)?;
+    }
     Ok(Folder { kept, _lock: lock })
 }
 
-/// Held while a film is rendered.
+/// Held while a film is rendered. Nothing is written into it: it says by being locked.
 #[derive(Debug)]
 struct Lock {
     path: PathBuf,
-    _file: File,
+    file: File,
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Before it is unlocked; whoever waits for it looks whether it is still there.
-        let _ = std::fs::remove_file(&self.path);
+        // Before it is unlocked: whoever waits for it looks whether it is still there. Where that cannot be told it stays.
+        if cfg!(unix) && is_at(&self.file, &self.path) {
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether an open file is the one at a path (elsewhere than on Unix nobody removes it).
+fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let known = |about: std::fs::Metadata| (about.dev(), about.ino());
+        match (file.metadata().map(known), path.symlink_metadata().map(known)) {
+            (Ok(file), Ok(path)) => file == path,
+            _ => false,
+        }
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = (file, path);
+        true
     }
 }
 
 /// Waits until no other process renders into the folder. None where the disk knows no locks.
 fn lock(plan: &Plan, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error> {
     let path = plan.folder.join(LOCK);
-    let wrong = |source| Error::machine(&path, "opening", source);
-    let own = std::process::id().to_string();
+    if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
+        let what = format!("`{LOCK}` is there, and is no file");
+        return Err(Fault::new(Place::file(&plan.folder), what, "remove it, or --out FOLDER").into());
+    }
+    let mut told = false;
     loop {
-        let mut file =
-            OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(wrong)?;
+        let wrong = |doing: &str, source| Error::machine(&path, doing, source);
+        let open = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
+        let file = open.map_err(|source| wrong("opening", source))?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                tell(Step::Waiting(plan.folder.clone()));
-                file.lock().map_err(wrong)?;
+                if !told {
+                    tell(Step::Waiting(plan.folder.clone()));
+                }
+                told = true;
+                file.lock().map_err(|source| wrong("locking", source))?;
             }
-            Err(TryLockError::Error(_)) => return Ok(None),
+            Err(TryLockError::Error(_)) => {
+                tell(Step::Unlocked(plan.folder.clone()));
+                return Ok(None);
+            }
         }
-        // It may have been removed by the process that was waited for, and another one be there now.
-        file.set_len(0).and_then(|()| file.write_all(own.as_bytes())).map_err(wrong)?;
-        if std::fs::read_to_string(&path).is_ok_and(|there| there == own) {
-            return Ok(Some(Lock { path, _file: file }));
+        // The process that was waited for has removed it, and another one may be there now.
+        if is_at(&file, &path) {
+            return Ok(Some(Lock { path, file }));
         }
     }
 }
@@ -99,6 +128,19 @@ struct There {
     path: PathBuf,
     // None for what this program has not made.
     fingerprint: Option<Fingerprint>,
+    exposure: Option<usize>,
+}
+
+impl There {
+    /// Whether it is its exposure's picture, and, like what belongs to it, can be read.
+    fn is_whole(&self, plan: &Plan, own: &Fingerprint) -> bool {
+        let size = (plan.sampling.width, plan.sampling.height);
+        self.fingerprint.as_ref() == Some(own)
+            && self.exposure == Some(self.index)
+            && self.path == picture(plan, self.index)
+            && output::read_png(&self.path, size).is_ok()
+            && (!plan.exr || self.path.with_extension("exr").metadata().is_ok_and(|exr| exr.len() > 0))
+    }
 }
 
 /// The number that is the name of a picture, or of a file beside it.
@@ -108,35 +150,29 @@ fn number(name: &str) -> Option<usize> {
     if is_number && matches!(extension, "png" | "exr") { digits.parse().ok() } else { None }
 }
 
-fn there(plan: &Plan) -> Vec<There> {
+/// All files with names of pictures; empty ones are what a loss of power leaves.
+fn there(plan: &Plan) -> Result<Vec<There>, Error> {
+    let wrong = |source| Error::machine(&plan.folder, "looking what is there", source);
     let mut there = Vec::new();
-    for entry in std::fs::read_dir(&plan.folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        if path.extension().is_some_and(|extension| extension == "png")
-            && let Some(index) = number(&entry.file_name().to_string_lossy())
-        {
-            let fingerprint = output::png_text(&path, KEYWORD);
-            there.push(There {
-                index,
-                path,
-                fingerprint: fingerprint.and_then(|text| Fingerprint::parse(&text)),
-            });
+    for entry in std::fs::read_dir(&plan.folder).map_err(wrong)? {
+        let path = entry.map_err(wrong)?.path();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let is_picture = path.extension().is_some_and(|extension| extension == "png");
+        let Some(index) = number(&name).filter(|_| is_picture) else { continue };
+        if path.metadata().is_ok_and(|about| about.is_file() && about.len() > 0) {
+            let text = |keyword| output::png_text(&path, keyword);
+            let fingerprint = text(FINGERPRINT).and_then(|text| Fingerprint::parse(&text));
+            let exposure = text(EXPOSURE).and_then(|text| text.parse().ok());
+            there.push(There { index, path, fingerprint, exposure });
         }
     }
     there.sort_by(|a, b| a.path.cmp(&b.path));
-    there
+    Ok(there)
 }
 
 /// The picture of an exposure.
 pub(super) fn picture(plan: &Plan, index: usize) -> PathBuf {
     plan.folder.join(exposure_name(index, plan.exposures.len()))
-}
-
-/// Whether the picture of an exposure, and what belongs to it, can be read.
-fn is_whole(plan: &Plan, index: usize) -> bool {
-    let path = picture(plan, index);
-    let size = (plan.sampling.width, plan.sampling.height);
-    output::read_png(&path, size).is_ok() && (!plan.exr || path.with_extension("exr").exists())
 }
 
 /// A fault if pictures of another film are there.
@@ -162,7 +198,10 @@ fn refuse_others(plan: &Plan, own: &Fingerprint, there: &[There]) -> Result<(), 
             format!("`{name}` is a picture of another film: {}", changes.join(", and "))
         }
     };
-    let hint = "--restart renders all anew; --out FOLDER leaves what is there as it is";
+    let hint = match &other.fingerprint {
+        None => "remove it, or --out FOLDER",
+        Some(_) => "--restart renders all anew; --out FOLDER leaves what is there as it is",
+    };
     Err(Fault::new(Place::file(&plan.folder), why, hint).into())
 }
 

@@ -20,6 +20,8 @@ use std::sync::mpsc::{Receiver, sync_channel};
 pub enum Step {
     /// Another process renders into this folder, and is waited for.
     Waiting(PathBuf),
+    /// The disk of this folder knows no locks: another process may write there.
+    Unlocked(PathBuf),
     /// So many pictures are on the disk already.
     Kept(usize),
     /// The brightness of the film is known: this luminance (cd/m²) becomes white.
@@ -148,7 +150,6 @@ fn file_all(
     inbox: &Receiver<Sheet>,
     mut tell: impl FnMut(Step),
 ) -> Result<(), Error> {
-    let text = labels(plan);
     let size = (plan.sampling.width, plan.sampling.height);
     for sheet in inbox {
         let print = match sheet {
@@ -161,6 +162,7 @@ fn file_all(
             }
         };
         let path = folder::picture(plan, print.exposure.index);
+        let text = labels(plan, print.exposure.index);
         if let Some(firsts) = &print.firsts {
             write_exr(plan, &path.with_extension("exr"), &print, (firsts, &text))?;
         }
@@ -178,10 +180,11 @@ fn file_all(
     Ok(())
 }
 
-/// What is written into every picture.
-fn labels(plan: &Plan) -> Vec<(&'static str, String)> {
-    let fingerprint = plan.fingerprint().map(|fingerprint| (folder::KEYWORD, fingerprint.to_string()));
-    plan.text.iter().cloned().chain(fingerprint).collect()
+/// What is written into a picture.
+fn labels(plan: &Plan, index: usize) -> Vec<(&'static str, String)> {
+    let fingerprint = plan.fingerprint().map(|fingerprint| (folder::FINGERPRINT, fingerprint.to_string()));
+    let exposure = (folder::EXPOSURE, index.to_string());
+    plan.text.iter().cloned().chain([exposure]).chain(fingerprint).collect()
 }
 
 fn write_exr(
