@@ -5,19 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-const MANIFEST: &str = "\
-light_speed: 1 m/s
-assets: { ball: { sphere: { radius: 1 m } }, floor: { plane: {} } }
-bodies:
-  - { asset: ball, at: 0 1 0 m, velocity: 0.6 0 0 c, material: { glass: BK7 } }
-  - { asset: floor }
-lights: [{ lamp: { intensity: 400 cd }, at: 2 5 4 m }]
-observer: { at: 0 2 8 m, look_at: 0 1 0 m }
-exposures: { from: 4 s, to: 14 s, count: 12 }
-picture: { size: 64 48, samples: 4, white: 40 cd/m2 }
-film: { rate: 24 }
-output: out
-";
+const MANIFEST: &str = include_str!("survive/film.yaml");
 
 /// A folder with the manifest in it.
 struct Place(tempfile::TempDir);

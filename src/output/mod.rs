@@ -16,7 +16,7 @@ mod yuv;
 
 pub use self::exr::{Layers, write_exr};
 pub use self::movie::Movie;
-pub use self::png::{Picture8, png_text, read_png, write_png};
+pub use self::png::{Picture8, png_texts, read_png, write_png};
 
 use crate::error::Error;
 use std::fs::{self, File, OpenOptions};

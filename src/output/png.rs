@@ -2,6 +2,7 @@
 
 use super::write_whole;
 use crate::error::Error;
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -25,12 +26,14 @@ pub fn write_png(path: &Path, picture: &Picture8<'_>) -> Result<(), Error> {
     write_whole(path, |file| encode(file, picture).map_err(io::Error::from))
 }
 
-/// The text under a keyword in a PNG file; none if there is none, or if it is no PNG file.
-pub fn png_text(path: &Path, keyword: &str) -> Option<String> {
-    let reader = png::Decoder::new(BufReader::new(File::open(path).ok()?)).read_info().ok()?;
-    let info = reader.info();
-    let plain = info.uncompressed_latin1_text.iter().find(|text| text.keyword == keyword);
-    plain.map(|text| text.text.clone())
+/// The texts in a PNG file by their keywords; empty if it is no PNG file.
+pub fn png_texts(path: &Path) -> BTreeMap<String, String> {
+    let decoder = File::open(path).map(|file| png::Decoder::new(BufReader::new(file)));
+    let Some(reader) = decoder.ok().and_then(|decoder| decoder.read_info().ok()) else {
+        return BTreeMap::new();
+    };
+    let texts = reader.info().uncompressed_latin1_text.iter();
+    texts.map(|text| (text.keyword.clone(), text.text.clone())).collect()
 }
 
 /// Red, green and blue of every pixel of a PNG file that [`write_png`] has written, `size` pixels across and down; an error

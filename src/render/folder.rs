@@ -160,9 +160,9 @@ fn there(plan: &Plan) -> Result<Vec<There>, Error> {
         let is_picture = path.extension().is_some_and(|extension| extension == "png");
         let Some(index) = number(&name).filter(|_| is_picture) else { continue };
         if path.metadata().is_ok_and(|about| about.is_file() && about.len() > 0) {
-            let text = |keyword| output::png_text(&path, keyword);
-            let fingerprint = text(FINGERPRINT).and_then(|text| Fingerprint::parse(&text));
-            let exposure = text(EXPOSURE).and_then(|text| text.parse().ok());
+            let texts = output::png_texts(&path);
+            let fingerprint = texts.get(FINGERPRINT).and_then(|text| Fingerprint::parse(text));
+            let exposure = texts.get(EXPOSURE).and_then(|text| text.parse().ok());
             there.push(There { index, path, fingerprint, exposure });
         }
     }

@@ -10,16 +10,7 @@ fn top(path: &str) -> PathBuf {
 
 #[test]
 fn schema_is_current() {
-    let path = top("manifests/terrell.schema.json");
-    let now = terrell::manifest::schema();
-    if std::env::var_os("TERRELL_UPDATE").is_some() {
-        std::fs::write(&path, &now).unwrap();
-    }
-    let written = std::fs::read_to_string(&path).unwrap();
-    assert!(
-        written == now,
-        "manifests/terrell.schema.json is stale: TERRELL_UPDATE=1 cargo test --release schema"
-    );
+    crate::support::is_current("manifests/terrell.schema.json", &terrell::manifest::schema(), "schema");
 }
 
 /// The schema, ready to be asked; `at`: a part of it.

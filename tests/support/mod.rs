@@ -10,6 +10,7 @@ pub(crate) mod needless;
 mod numbers;
 mod stage;
 mod surfaces;
+mod written;
 
 pub(crate) use ciede2000::{ciede2000, lab};
 pub(crate) use heaven::Heaven;
@@ -26,3 +27,4 @@ pub(crate) use surfaces::{
     ball, black, black_body, blinking, cuboid, diffuse, flat, glass, glowing, line, mirror, mixed, pane,
     plane,
 };
+pub(crate) use written::is_current;

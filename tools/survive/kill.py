@@ -7,6 +7,7 @@ SIGTERM, or is left alone. After each round every file under a final name must h
 import argparse
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,19 +16,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM)
-MANIFEST = """\
-light_speed: 1 m/s
-assets: { ball: { sphere: { radius: 1 m } }, floor: { plane: {} } }
-bodies:
-  - { asset: ball, at: 0 1 0 m, velocity: 0.6 0 0 c, material: { glass: BK7 } }
-  - { asset: floor }
-lights: [{ lamp: { intensity: 400 cd }, at: 2 5 4 m }]
-observer: { at: 0 2 8 m, look_at: 0 1 0 m }
-exposures: { from: 4 s, to: 14 s, count: 12 }
-picture: { size: 64 48, samples: 4, white: 40 cd/m2 }
-film: { rate: 24 }
-output: { folder: out, exr: on }
-"""
+MANIFEST = os.path.join(HERE, "..", "..", "tests", "survive", "film.yaml")
 
 
 def start(program, folder):
@@ -36,8 +25,7 @@ def start(program, folder):
 
 def place():
     folder = tempfile.TemporaryDirectory()
-    with open(os.path.join(folder.name, "film.yaml"), "w") as file:
-        file.write(MANIFEST)
+    shutil.copy(MANIFEST, folder.name)
     return folder
 
 
