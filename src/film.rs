@@ -1,8 +1,11 @@
 //! Samples of a pixel, and the way from light to the numbers of a picture.
 
-use crate::color::{RGB_FROM_XYZ, srgb_encode};
+mod development;
+
+pub use development::Development;
+
+use crate::color::RGB_FROM_XYZ;
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 /// How much light around a pixel's centre counts for it. The weights are carried by the density of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -92,84 +95,30 @@ pub struct Negative {
     pub xyz: Vec<[f32; 3]>,
 }
 
-/// How light becomes a picture.
+/// How bright a film is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Development {
-    /// The luminance that becomes full white, cd/m².
+pub struct Brightness {
+    /// The luminance that should become white, cd/m²: 85 in 100 of the lit pixels lie below 60 % of it.
     pub white: f64,
+    /// How bright the brightest are, cd/m² of the screen's greatest channel: 999 in 1000 of the lit pixels are less so.
+    pub brightest: f64,
 }
 
-/// Below this part of white nothing is changed; above, brightness approaches white.
-const SHOULDER: f64 = 0.8;
-
-impl Development {
-    /// sRGB bytes of a whole picture.
-    pub fn develop(&self, negative: &Negative) -> Vec<u8> {
-        let steps = EncodingSteps::new();
-        let developed = |xyz: &[f32; 3]| {
-            let rgb = self.display(DVec3::from(xyz.map(f64::from)));
-            rgb.to_array().map(|channel| steps.byte(channel))
+impl Brightness {
+    /// Of these pixels (XYZ, cd/m²); none if nothing is lit.
+    ///
+    /// By quantiles, because a film at 0.9 c holds brightnesses from 1e-5 to 1e5 that no mean should follow.
+    pub fn of(pixels: impl IntoIterator<Item = [f32; 3]>) -> Option<Self> {
+        let pixels = pixels.into_iter().map(|xyz| DVec3::from(xyz.map(f64::from)));
+        let lit: Vec<DVec3> = pixels.filter(|xyz| xyz.y > 0.0 && xyz.is_finite()).collect();
+        let quantile = |of: &dyn Fn(&DVec3) -> f64, thousandths: usize| {
+            let mut values: Vec<f64> = lit.iter().map(of).collect();
+            let place = values.len() * thousandths / 1000;
+            *values.select_nth_unstable_by(place, f64::total_cmp).1
         };
-        let pixels: Vec<[u8; 3]> = negative.xyz.par_iter().map(developed).collect();
-        pixels.into_flattened()
+        (!lit.is_empty()).then(|| Self {
+            white: quantile(&|xyz| xyz.y, 850) / 0.6,
+            brightest: quantile(&|xyz| (*RGB_FROM_XYZ * *xyz).max_element(), 999),
+        })
     }
-
-    /// Linear sRGB in 0 to 1: what is too bright rolls off at its own hue, and colours that no screen can show go
-    /// towards grey of the same luminance.
-    pub fn display(&self, xyz: DVec3) -> DVec3 {
-        let relative = xyz / self.white;
-        let y = relative.y;
-        if y == f64::INFINITY {
-            return DVec3::ONE; // Brighter than numbers go.
-        }
-        if !(y > 0.0 && relative.is_finite()) {
-            return DVec3::ZERO;
-        }
-        let bright = if y <= SHOULDER {
-            y
-        } else {
-            1.0 - (1.0 - SHOULDER) * libm::exp(-(y - SHOULDER) / (1.0 - SHOULDER))
-        };
-        let rgb = *RGB_FROM_XYZ * (relative * (bright / y));
-        let grey = DVec3::splat(bright);
-        let away = rgb - grey;
-        let keep = (0..3).fold(1.0_f64, |keep, i| {
-            let room = if away[i] > 0.0 { 1.0 - bright } else { -bright };
-            if away[i].abs() > room.abs() { keep.min(room / away[i]) } else { keep }
-        });
-        (grey + away * keep).clamp(DVec3::ZERO, DVec3::ONE)
-    }
-}
-
-/// The linear values at which the sRGB byte changes: exact rounding without a power per pixel.
-struct EncodingSteps {
-    edges: [f64; 255],
-    guess: Vec<u8>,
-}
-
-impl EncodingSteps {
-    fn new() -> Self {
-        let edges = std::array::from_fn(|i| crate::color::srgb_decode((i as f64 + 0.5) / 255.0));
-        let guess = (0..4096).map(|i| (srgb_encode(f64::from(i) / 4096.0) * 255.0 + 0.5) as u8).collect();
-        Self { edges, guess }
-    }
-
-    fn byte(&self, linear: f64) -> u8 {
-        let mut byte = self.guess[((linear * 4096.0) as usize).min(4095)];
-        while byte < 255 && linear >= self.edges[usize::from(byte)] {
-            byte += 1;
-        }
-        byte
-    }
-}
-
-/// The luminance that should become white: 85 in 100 of the lit pixels then lie below 60 % of it.
-///
-/// A quantile, because a film at 0.9 c holds brightnesses from 1e-5 to 1e5 that no mean should follow. None if nothing
-/// is lit.
-pub fn meter(luminances: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let is_lit = |luminance: &f64| *luminance > 0.0 && luminance.is_finite();
-    let mut lit: Vec<f64> = luminances.into_iter().filter(is_lit).collect();
-    let place = lit.len() * 85 / 100;
-    (!lit.is_empty()).then(|| *lit.select_nth_unstable_by(place, f64::total_cmp).1 / 0.6)
 }

@@ -4,10 +4,10 @@ use crate::support::{
     Body, Dice, Eye, Stage, beta, black_body, built, close, coloured, cube, diffuse, flat, glowing,
     icosphere, look, near, near_vector, pixel_centre, v,
 };
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use terrell::color::{RGB_FROM_XYZ, XYZ_FROM_RGB, srgb_decode, srgb_encode};
 use terrell::exposure::{Sampling, expose, first_hits};
-use terrell::film::{Development, Negative, Reconstruction, meter};
+use terrell::film::{Brightness, Development, Negative, Reconstruction};
 use terrell::scene::Scene;
 use terrell::spectrum::Wavelengths;
 
@@ -163,30 +163,124 @@ fn first_hits_tell_the_body_of_each_pixel() {
     }
 }
 
+/// Hue in OKLab, degrees, by the matrices from XYZ as they were published (Ottosson 2020; the code has others, from sRGB).
+fn hue(xyz: DVec3) -> f64 {
+    let cones = DMat3::from_cols_array(&[
+        0.818_933_010_1,
+        0.032_984_543_6,
+        0.048_200_301_8,
+        0.361_866_742_4,
+        0.929_311_871_5,
+        0.264_366_269_1,
+        -0.128_859_713_7,
+        0.036_145_638_7,
+        0.633_851_707_0,
+    ]) * xyz;
+    let root = DVec3::new(libm::cbrt(cones.x), libm::cbrt(cones.y), libm::cbrt(cones.z));
+    let a = v(1.977_998_495_1, -2.428_592_205_0, 0.450_593_709_9).dot(root);
+    let b = v(0.025_904_037_1, 0.782_771_766_2, -0.808_675_766_0).dot(root);
+    libm::atan2(b, a).to_degrees()
+}
+
+/// The difference of two angles in degrees.
+fn turned(from: f64, to: f64) -> f64 {
+    ((to - from + 540.0).rem_euclid(360.0) - 180.0).abs()
+}
+
+/// Any real light: also colours that no screen shows.
+fn any_colour(dice: &mut Dice) -> DVec3 {
+    let nm = dice.between(400.0, 690.0);
+    let colour =
+        terrell::color::matching(nm) + terrell::color::matching(dice.between(400.0, 690.0)) * dice.part();
+    colour / colour.y
+}
+
 #[test]
 fn display_never_leaves_its_range_and_brighter_stays_brighter() {
     let mut dice = Dice(6);
-    let development = Development { white: 100.0 };
-    for _ in 0..300 {
-        // Any real light: also colours that no screen shows.
-        let nm = dice.between(400.0, 690.0);
-        let colour =
-            terrell::color::matching(nm) + terrell::color::matching(dice.between(400.0, 690.0)) * dice.part();
+    for number in 0..300 {
+        let headroom = f64::from(number % 25);
+        let development = Development::new(100.0, headroom);
+        let colour = any_colour(&mut dice);
         let mut before = -1.0;
-        for step in 0..60 {
-            let rgb = development.display(colour / colour.y * libm::exp(f64::from(step) * 0.3 - 6.0));
+        for step in 0..120 {
+            let rgb = development.display(colour * libm::exp2(f64::from(step) * 0.5 - 6.0));
             assert!(rgb.min_element() >= 0.0 && rgb.max_element() <= 1.0);
             let y = (*XYZ_FROM_RGB * rgb).y;
             assert!(y >= before - 1e-12, "{y} after {before}");
             before = y;
         }
-        near(before, 1.0, 1e-6);
+        near(development.display(colour * 1e20).max_element(), 1.0, 1e-12);
+    }
+}
+
+/// From a ten-thousandth of white to a million times white.
+#[test]
+fn hue_stays_however_bright_a_colour_is() {
+    let mut dice = Dice(7);
+    for headroom in [0.0, 1.0, 5.0, 17.0] {
+        let development = Development::new(1.0, headroom);
+        for _ in 0..200 {
+            let rgb = v(dice.part(), dice.part(), dice.part());
+            let colour = if dice.part() < 0.5 { *XYZ_FROM_RGB * rgb } else { any_colour(&mut dice) };
+            if rgb.max_element() - rgb.min_element() < 0.1 {
+                continue; // Greys have none.
+            }
+            let sent = hue(colour);
+            for step in 0..34 {
+                let shown = development.display(colour / colour.y * libm::exp2(f64::from(step) - 13.0));
+                let seen = hue(*XYZ_FROM_RGB * shown);
+                assert!(
+                    turned(sent, seen) < 2.0,
+                    "{colour} at 2^{}: {sent} became {seen}, {shown}",
+                    step - 13
+                );
+                // And there is some left.
+                assert!(shown.max_element() - shown.min_element() > 0.02 * shown.max_element());
+            }
+        }
+    }
+}
+
+/// The rainbow has no place at which its hues go back, though no screen shows its colours.
+#[test]
+fn hues_of_the_spectrum_keep_their_order() {
+    let development = Development::new(1.0, 4.0);
+    let hues: Vec<f64> = (440..=650)
+        .step_by(5)
+        .map(|nm| {
+            let colour = terrell::color::matching(f64::from(nm));
+            hue(*XYZ_FROM_RGB * development.display(colour / colour.y * 0.2))
+        })
+        .collect();
+    for pair in hues.windows(2) {
+        let step = (pair[0] - pair[1] + 540.0).rem_euclid(360.0) - 180.0;
+        assert!(step > -0.5, "{hues:?}");
+    }
+    assert!(hues.len() > 40 && turned(hues[0], *hues.last().unwrap()) > 60.0);
+}
+
+/// All of the headroom is told apart, what is beyond is not; without headroom nothing is changed up to white.
+#[test]
+fn headroom_is_what_is_told_apart_above_white() {
+    let white = *XYZ_FROM_RGB * DVec3::ONE;
+    for headroom in [0.5, 1.0, 4.0, 17.0] {
+        let shown = |stops: f64| Development::new(1.0, headroom).display(white * libm::exp2(stops)).y;
+        near(shown(headroom), 1.0, 1e-9);
+        near(shown(headroom + 0.1), 1.0, 1e-12);
+        for step in 0..20 {
+            let stops = headroom * (f64::from(step) / 20.0);
+            assert!(shown(stops + headroom / 20.0) - shown(stops) > 0.2 / 256.0, "{stops} of {headroom}");
+        }
+    }
+    for rgb in [v(0.1, 1.0, 0.2), DVec3::ONE, v(0.9, 0.95, 0.01)] {
+        near_vector(Development::new(2.0, 0.0).display(*XYZ_FROM_RGB * rgb * 2.0), rgb, 1e-9);
     }
 }
 
 #[test]
 fn colours_that_the_screen_can_show_are_shown_as_they_are() {
-    let development = Development { white: 250.0 };
+    let development = Development::new(250.0, 0.0);
     for rgb in [v(0.1, 0.7, 0.2), v(0.5, 0.5, 0.5), v(0.0, 0.3, 0.0), v(0.79, 0.79, 0.79)] {
         near_vector(development.display(*XYZ_FROM_RGB * rgb * 250.0), rgb, 1e-12);
     }
@@ -199,7 +293,7 @@ fn colours_that_the_screen_can_show_are_shown_as_they_are() {
 /// A grey goes through the shoulder without colour and without a step.
 #[test]
 fn shoulder_is_smooth_and_grey_stays_grey() {
-    let development = Development { white: 1.0 };
+    let development = Development::new(1.0, 2.0);
     let white = *XYZ_FROM_RGB * DVec3::ONE;
     let (mut before, mut slope) = (0.0, 1.0);
     for step in 1..400 {
@@ -208,7 +302,9 @@ fn shoulder_is_smooth_and_grey_stays_grey() {
         near(rgb.max_element() - rgb.min_element(), 0.0, 1e-12);
         let rise = (rgb.y - before) / 0.01;
         assert!(rise <= slope + 1e-9 && rise >= 0.0, "at {y}: {rise} after {slope}");
-        assert!(slope - rise < 0.06);
+        assert!(slope - rise < 0.1);
+        // No step to less than nothing: up to the knee it is the light itself.
+        assert!(y > 0.6 || (rgb.y - y).abs() < 1e-12);
         (before, slope) = (rgb.y, rise);
     }
 }
@@ -219,7 +315,7 @@ fn bytes_are_the_nearest_ones() {
     let greys: Vec<f64> = (0..2000).map(|i| f64::from(i) * 0.0004).collect();
     let xyz = greys.iter().map(|grey| (white * *grey).as_vec3().to_array()).collect();
     let negative = Negative { width: 2000, height: 1, xyz };
-    let bytes = Development { white: 1.0 }.develop(&negative);
+    let bytes = Development::new(1.0, 0.0).develop(&negative);
     for (i, grey) in greys.iter().enumerate() {
         let exact = srgb_encode(*grey) * 255.0;
         assert!((f64::from(bytes[3 * i]) - exact).abs() < 0.501, "{grey}");
@@ -236,21 +332,29 @@ fn encoding_is_undone_by_decoding() {
 }
 
 #[test]
-fn meter_follows_neither_the_brightest_nor_the_darkest() {
+fn brightness_follows_neither_the_brightest_nor_the_darkest() {
+    let grey = |y: f64| (*XYZ_FROM_RGB * DVec3::splat(y)).as_vec3().to_array();
+    let of = |luminances: &[f64]| Brightness::of(luminances.iter().map(|y| grey(*y)));
     // 85 in 100 lie below 60 % of white; a film of one brightness is at 60 % itself.
-    close(3.0 / meter([3.0; 50]).unwrap(), 0.6, 1e-12);
-    let mixed = (0..100).map(|i| {
-        if i < 10 {
-            1e-5
-        } else if i < 95 {
-            4.0
-        } else {
-            1e5
-        }
-    });
-    close(4.0 / meter(mixed).unwrap(), 0.6, 1e-12);
-    close(2.0 / meter([0.0, f64::NAN, 2.0]).unwrap(), 0.6, 1e-12);
-    assert!(meter([0.0, 0.0]).is_none());
+    close(3.0 / of(&[3.0; 50]).unwrap().white, 0.6, 1e-6);
+    let mixed: Vec<f64> = (0..100)
+        .map(|i| {
+            if i < 10 {
+                1e-5
+            } else if i < 95 {
+                4.0
+            } else {
+                1e5
+            }
+        })
+        .collect();
+    close(4.0 / of(&mixed).unwrap().white, 0.6, 1e-6);
+    close(of(&mixed).unwrap().brightest, 1e5, 1e-6);
+    close(2.0 / of(&[0.0, f64::NAN, 2.0]).unwrap().white, 0.6, 1e-6);
+    assert!(of(&[0.0, 0.0]).is_none());
+    // One pixel in a thousand may be a glint.
+    let glint: Vec<f64> = (0..2000).map(|i| if i == 7 { 1e6 } else { 5.0 }).collect();
+    close(of(&glint).unwrap().brightest, 5.0, 1e-6);
 }
 
 #[test]

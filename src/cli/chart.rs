@@ -4,9 +4,8 @@ use super::{Changes, prepare, print};
 use crate::chart::{self, Deviation, Measured, Method, Subject};
 use crate::error::{Error, Place};
 use crate::exposure::Sampling;
-use crate::film::Development;
 use crate::output::write_whole;
-use crate::render::white;
+use crate::render::development;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -49,7 +48,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
         let hint = format!("they are numbered from 0 to {}", plan.exposures.len() - 1);
         return Err(Error::fault(Place::Command, format!("there is no exposure {number}"), hint));
     };
-    let development = Development { white: white(&scene, &plan) };
+    let development = development(&scene, &plan);
     if args.size.is_none() {
         plan.sampling = plan.sampling.within(WIDEST);
     }

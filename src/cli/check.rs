@@ -3,7 +3,7 @@
 use crate::chart::{Deviation, JUST_NOTICEABLE};
 use crate::error::Error;
 use crate::exposure::{Sampling, expose};
-use crate::film::{Development, Negative};
+use crate::film::Negative;
 use crate::manifest::Manifest;
 use crate::plan::{Plan, needs};
 use crate::render;
@@ -40,7 +40,7 @@ fn wavelengths(scene: &Scene, plan: &Plan) -> Option<String> {
         return None;
     }
     let small = Sampling { samples: 1, ..plan.sampling.within(TRIED_COLUMNS) };
-    let development = Development { white: render::white(scene, plan) };
+    let development = render::development(scene, plan);
     let every = plan.exposures.len().div_ceil(TRIED).max(1);
     let views: Vec<_> = plan.exposures.iter().skip(every / 2).step_by(every).collect();
     let exposed = |wavelengths: u32| -> Vec<Negative> {

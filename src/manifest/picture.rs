@@ -212,8 +212,26 @@ impl Kind for Stops {
     }
 }
 
-/// A small part of the light.
-struct Faintest;
+/// Factors of two above white, or none if they are to be measured.
+struct Headroom;
+
+impl Kind for Headroom {
+    type Value = Option<f64>;
+    fn shape() -> Shape {
+        Shape::Either(vec![Shape::Words(&["auto"]), Shape::Number("factors of two, from 0 to 64")])
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Option<f64>> {
+        if node.text() == Some("auto") {
+            return Ok(None);
+        }
+        let headroom = Real::read(node, reader)?;
+        if (0.0..=64.0).contains(&headroom) {
+            return Ok(Some(headroom));
+        }
+        let hint = reader.typed("4 (from 0 to 64), or auto");
+        Err(reader.fault(&node.place, format!("a headroom of {headroom} is out of range"), hint))
+    }
+}
 
 /// A difference of colours in CIEDE2000.
 struct Tolerance;
@@ -232,6 +250,9 @@ impl Kind for Tolerance {
         Err(reader.fault(&node.place, format!("`{difference}` is not a tolerance"), hint))
     }
 }
+
+/// A small part of the light.
+struct Faintest;
 
 impl Kind for Faintest {
     type Value = f64;
@@ -271,6 +292,9 @@ record! {
         white: White = White, default(White::Auto), "250 cd/m2";
         /// Brighter (above zero) or darker, in factors of two.
         stops: f64 = Stops, default(0.0), "-1";
+        /// How far above white light is still told apart, in factors of two: the more, the flatter the picture. 0 cuts off at white;
+        /// `auto` (unless said) goes by what is brightest in the whole film.
+        headroom: Option<f64> = Headroom, default(None), "8";
     }
 }
 

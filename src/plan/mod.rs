@@ -50,6 +50,8 @@ pub struct Plan {
     pub still: bool,
     /// How bright.
     pub white: White,
+    /// How far above white light is still told apart, factors of two; none if the film's brightness shall say it.
+    pub headroom: Option<f64>,
     /// Pictures per second of the film; none if no film is wanted.
     pub film_rate: Option<f64>,
     /// Whether OpenEXR files are wanted.
@@ -136,6 +138,7 @@ impl Plan {
             tolerance: picture.tolerance,
             still: needs::still(scene).yes,
             white: white(picture),
+            headroom: picture.headroom,
             film_rate,
             exr: manifest.output.exr,
             folder: manifest.output.folder.clone(),

@@ -5,7 +5,7 @@ mod folder;
 use crate::color::RGB_FROM_XYZ;
 use crate::error::Error;
 use crate::exposure::{Sampling, Uncertainty, expose, expose_settled, first_hits};
-use crate::film::{Development, Negative, meter};
+use crate::film::{Brightness, Development, Negative};
 use crate::observer::View;
 use crate::output::{self, Layers, Movie, Picture8};
 use crate::plan::{Exposure, Plan, White};
@@ -71,7 +71,7 @@ pub fn render(
         tell(Step::Kept(folder.kept.len()));
     }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
-    let development = Development { white: white(scene, plan) };
+    let development = development(scene, plan);
     tell(Step::Metered(development.white));
     let movie = film_path(plan, exposures.len()).map(|path| start(plan, &path)).transpose()?;
 
@@ -216,17 +216,29 @@ fn write_exr(
 const METER_COLUMNS: u32 = 64;
 const METER_PICTURES: usize = 48;
 
-/// The luminance that becomes white in every picture of the film, whichever of them are rendered.
-pub fn white(scene: &Scene, plan: &Plan) -> f64 {
-    let gain = match plan.white {
-        White::Fixed(white) => return white,
-        White::Auto { gain } => gain,
+/// How every picture of the film is developed, whichever of them are rendered.
+pub fn development(scene: &Scene, plan: &Plan) -> Development {
+    if let (White::Fixed(white), Some(headroom)) = (plan.white, plan.headroom) {
+        return Development::new(white, headroom);
+    }
+    let brightness = brightness(scene, plan).unwrap_or(Brightness { white: 1.0, brightest: 1.0 });
+    let white = match plan.white {
+        White::Fixed(white) => white,
+        White::Auto { gain } => brightness.white / gain,
     };
+    let measured = libm::log2(brightness.brightest / white).clamp(LEAST_HEADROOM, MOST_HEADROOM);
+    Development::new(white, plan.headroom.unwrap_or(measured))
+}
+
+/// Headroom where the film says it: at least so much that highlights end softly, at most what a searchlight at γ = 50 needs.
+const LEAST_HEADROOM: f64 = 1.0;
+const MOST_HEADROOM: f64 = 24.0;
+
+fn brightness(scene: &Scene, plan: &Plan) -> Option<Brightness> {
     let small = Sampling { samples: 1, ..plan.sampling.within(METER_COLUMNS) };
     let every = plan.exposures.len().div_ceil(METER_PICTURES).max(1);
-    let luminances = plan.exposures.iter().step_by(every).flat_map(|exposure| {
+    Brightness::of(plan.exposures.iter().step_by(every).flat_map(|exposure| {
         let view = scene.observer.view(exposure.tau, small.width, small.height);
-        expose(scene, &view, &small).xyz.into_iter().map(|xyz| f64::from(xyz[1]))
-    });
-    meter(luminances).unwrap_or(1.0) / gain
+        expose(scene, &view, &small).xyz
+    }))
 }
