@@ -50,7 +50,7 @@ pub use material::{Beyond, BlinkingMaterial, Gloss, Material, MaterialKey, Mater
 pub(crate) use motion::GREATEST_GAMMA;
 pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
-pub use output::{Film, Output};
+pub use output::{Depth, Exr, Film, Layer, Output};
 pub use paint::Paint;
 pub use picture::{Effects, Filter, Picture, White};
 pub use reader::LIGHT_SPEED;

@@ -3,6 +3,9 @@
 pub mod needs;
 
 mod limits;
+mod outputs;
+
+pub use outputs::{Measured, Outputs, Picture};
 
 use crate::error::Report;
 use crate::exposure::Sampling;
@@ -50,10 +53,12 @@ pub struct Plan {
     pub still: bool,
     /// How bright.
     pub white: White,
+    /// How much brighter that is than what is asked for, in factors of two.
+    pub stops: f64,
     /// Pictures per second of the film; none if no film is wanted.
     pub film_rate: Option<f64>,
-    /// Whether OpenEXR files are wanted.
-    pub exr: bool,
+    /// What is written of each exposure.
+    pub outputs: Outputs,
     /// The folder for all files.
     pub folder: PathBuf,
     /// The film's file in it.
@@ -136,8 +141,9 @@ impl Plan {
             tolerance: picture.tolerance,
             still: needs::still(scene).yes,
             white: white(picture),
+            stops: picture.stops,
             film_rate,
-            exr: manifest.output.exr,
+            outputs: Outputs::of(&manifest.output),
             folder: manifest.output.folder.clone(),
             film_file: file,
             seconds_per_metre: 1.0 / manifest.light_speed,
