@@ -119,6 +119,27 @@ impl View {
         }
     }
 
+    /// How often light of a sight ray goes to and fro for who has the camera's axes, while the observer sees the frequency 1:
+    /// other than 1 only where aberration is switched off.
+    pub fn frequency(&self, ray: &SightRay) -> f64 {
+        match self.seer {
+            Some(_) => self.tetrad.lab_from_camera.inverse().light(ray.k).t,
+            None => 1.0,
+        }
+    }
+
+    /// A normal (lab, at right angles to the four-velocity of what it belongs to) as it appears where a place in the picture
+    /// is: at right angles to the surface that is seen, in the camera's axes, unit length.
+    ///
+    /// What is seen lies on the observer's past light cone, at `(-r, r n)`. Where a surface `N·x = const` meets it
+    /// `N⁰ r + N·n r` is constant (N the normal in the camera's frame), so that is at right angles to `N + N⁰ n`.
+    pub fn apparent_normal(&self, pixel: DVec2, normal: FourVector) -> DVec3 {
+        let toward = self.direction(pixel);
+        let seen: FourVector<Camera> = self.tetrad.lab_from_camera.inverse() * normal;
+        let apparent = seen.x + toward * seen.t;
+        apparent.try_normalize().unwrap_or(-toward)
+    }
+
     /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.
     pub fn pixel_of(&self, k: FourVector) -> Option<DVec2> {
         let direction = self.tetrad.direction_of(k);

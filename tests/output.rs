@@ -4,7 +4,9 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use terrell::error::Error;
-use terrell::output::{Layers, Picture8, exposure_name, write_exr, write_png, write_whole};
+use terrell::output::{
+    Channel, Measured, Picture8, check_exr, exposure_name, exr_texts, write_exr, write_png, write_whole,
+};
 
 pub(crate) fn names_in(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
@@ -159,43 +161,29 @@ mod an_exr {
 
     const SIZE: (usize, usize) = (37, 19);
 
-    struct Values {
-        rgb: Vec<[f32; 3]>,
-        xyz: Vec<[f32; 3]>,
-        doppler: Vec<f32>,
-        emission_time: Vec<f32>,
-        body: Vec<i32>,
-        text: Vec<(&'static str, String)>,
-    }
-
-    fn values() -> Values {
+    fn values<'a>(text: &'a [(&'a str, String)]) -> Measured<'a> {
         let count = SIZE.0 * SIZE.1;
-        let ramp = |scale: f32| (0..count).map(move |i| (i as f32 + 0.1) * scale);
-        Values {
-            rgb: ramp(0.01).map(|v| [v, -v * 0.1, v * 1e6]).collect(),
-            xyz: ramp(100.0).map(|v| [v, v * 1.5, v * 1e-9]).collect(),
-            doppler: ramp(0.003).collect(),
-            emission_time: ramp(-2.5e8).collect(),
-            body: (-1..4).cycle().take(count).collect(),
-            text: vec![("scene", "Vorbeiflug β = 0.9".to_owned()), ("exposure", "12".to_owned())],
-        }
+        let ramp = |scale: f32| (0..count).map(|i| (i as f32 + 0.1) * scale).collect();
+        let channels = vec![
+            Channel::new("R", ramp(0.01)),
+            Channel::new("doppler", ramp(-2.5e8)),
+            Channel { half: true, ..Channel::new("B", ramp(100.0)) },
+            Channel::new("body", (-1_i16..4).cycle().take(count).map(f32::from).collect()),
+        ];
+        Measured { width: SIZE.0, height: SIZE.1, channels, white_luminance: 80.0, text }
     }
 
-    fn write(path: &Path, values: &Values) -> Result<(), Error> {
-        let Values { rgb, xyz, doppler, emission_time, body, text } = values;
-        let (width, height) = SIZE;
-        write_exr(
-            path,
-            &Layers { width, height, rgb, white_luminance: 80.0, xyz, doppler, emission_time, body, text },
-        )
+    fn text() -> [(&'static str, String); 2] {
+        [("scene", "Vorbeiflug β = 0.9".to_owned()), ("exposure", "12".to_owned())]
     }
 
     #[test]
     fn gives_back_every_value_exactly_under_its_name() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("0001.exr");
-        let values = values();
-        write(&path, &values).unwrap();
+        let text = text();
+        let values = values(&text);
+        write_exr(&path, values.clone()).unwrap();
         let image = read()
             .no_deep_data()
             .largest_resolution_level()
@@ -206,22 +194,21 @@ mod an_exr {
             .unwrap();
         let layer = &image.layer_data;
         assert_eq!((layer.size.0, layer.size.1), SIZE);
-        let part = |of: &[[f32; 3]], which: usize| of.iter().map(|v| v[which]).collect::<Vec<f32>>();
-        let expected = [
-            ("B", part(&values.rgb, 2)),
-            ("G", part(&values.rgb, 1)),
-            ("R", part(&values.rgb, 0)),
-            ("body", values.body.iter().map(|v| *v as f32).collect()),
-            ("cie.X", part(&values.xyz, 0)),
-            ("cie.Y", part(&values.xyz, 1)),
-            ("cie.Z", part(&values.xyz, 2)),
-            ("doppler", values.doppler.clone()),
-            ("emission_time", values.emission_time.clone()),
-        ];
-        assert_eq!(layer.channel_data.list.len(), expected.len());
-        for (channel, (name, samples)) in layer.channel_data.list.iter().zip(expected) {
-            assert_eq!(channel.name.to_string(), name);
-            assert_eq!(channel.sample_data, FlatSamples::F32(samples), "{name}");
+        assert_eq!(layer.channel_data.list.len(), values.channels.len());
+        for found in &layer.channel_data.list {
+            let expected = values.channels.iter().find(|one| found.name == *one.name).unwrap();
+            match &found.sample_data {
+                FlatSamples::F32(samples) => assert_eq!(samples, &expected.values),
+                FlatSamples::F16(samples) => {
+                    for (found, expected) in samples.iter().zip(&expected.values) {
+                        // Numbers of 11 digits; the largest is 65504.
+                        let (found, expected) = (found.to_f32(), expected.min(65_504.0));
+                        assert!((found - expected).abs() <= expected / 2048.0, "{found} {expected}");
+                    }
+                    assert!(expected.half);
+                }
+                FlatSamples::U32(_) => panic!("{}", found.name),
+            }
         }
         let red = image.attributes.chromaticities.unwrap().red;
         assert_eq!((red.0, red.1), (0.64, 0.33));
@@ -234,18 +221,41 @@ mod an_exr {
     fn is_the_same_every_time() {
         let folder = tempfile::tempdir().unwrap();
         let (one, two) = (folder.path().join("1.exr"), folder.path().join("2.exr"));
-        write(&one, &values()).unwrap();
-        write(&two, &values()).unwrap();
+        write_exr(&one, values(&text())).unwrap();
+        write_exr(&two, values(&text())).unwrap();
         assert_eq!(fs::read(one).unwrap(), fs::read(two).unwrap());
     }
 
     #[test]
     fn with_a_value_missing_is_an_error_and_no_file() {
         let folder = tempfile::tempdir().unwrap();
-        let mut values = values();
-        values.body.pop();
-        assert!(write(&folder.path().join("0001.exr"), &values).is_err());
+        let mut values = values(&[]);
+        values.channels[1].values.pop();
+        assert!(write_exr(&folder.path().join("0001.exr"), values).is_err());
         assert_eq!(names_in(folder.path()), [""; 0]);
+    }
+
+    #[test]
+    fn is_whole_only_with_every_byte_and_every_channel() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("0001.exr");
+        let text = text();
+        let values = values(&text);
+        let form = values.form();
+        write_exr(&path, values).unwrap();
+        check_exr(&path, &form).unwrap();
+        assert_eq!(exr_texts(&path)["exposure"], "12");
+        let mut other = form.clone();
+        other.channels[0].1 = !form.channels[0].1;
+        assert!(check_exr(&path, &other).is_err());
+        let bytes = fs::read(&path).unwrap();
+        fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
+        assert!(check_exr(&path, &form).is_err());
+        let mut garbled = bytes.clone();
+        let last = garbled.len() - 20;
+        garbled[last] ^= 0xff;
+        fs::write(&path, garbled).unwrap();
+        assert!(check_exr(&path, &form).is_err());
     }
 }
 

@@ -192,6 +192,54 @@ fn files_that_have_changed_places_make_another_film() {
 }
 
 #[test]
+fn every_file_of_an_exposure_is_read_before_it_is_kept() {
+    let (place, whole) = (Place::new(), Place::new());
+    for one in [&place, &whole] {
+        one.write(include_str!("survive/formats.yaml"));
+        one.done(&[]);
+    }
+    let kept = |count: usize| {
+        let said = place.done(&[]);
+        assert!(said.contains(&format!("{count} of 4 pictures are there already")), "{said}");
+        same(&place, &whole);
+    };
+    kept(4);
+    for (name, _) in whole.files().into_iter().filter(|(name, _)| name.starts_with("0002.")) {
+        std::fs::remove_file(place.path(&name)).unwrap();
+        kept(3);
+        let bytes = std::fs::read(place.path(&name)).unwrap();
+        std::fs::write(place.path(&name), &bytes[..bytes.len() - 100]).unwrap();
+        kept(3);
+        // That of another exposure.
+        std::fs::copy(place.path(&name.replace("0002", "0001")), place.path(&name)).unwrap();
+        kept(3);
+    }
+    // Of another kind: with fewer digits, or fewer layers.
+    for instead in [
+        "png: 8, bmp: on, exr: { depth: half }",
+        "png: 16, bmp: on, exr: on",
+        "exr: { depth: half, layers: [body] }",
+    ] {
+        place.write(
+            &include_str!("survive/formats.yaml").replace("png: 16, bmp: on, exr: { depth: half }", instead),
+        );
+        place.done(&["--exposure", "1"]);
+        place.write(include_str!("survive/formats.yaml"));
+        kept(3);
+    }
+}
+
+#[test]
+fn measured_picture_of_another_film_is_seen_too() {
+    let place = Place::new();
+    place.done(&["--exposure", "3"]);
+    std::fs::remove_file(place.path("0003.png")).unwrap();
+    place.write(&MANIFEST.replace("0.6 0 0 c", "0.5 0 0 c"));
+    let said = place.refused(&[]);
+    assert!(said.contains("`0003.exr` is a picture of another film"), "{said}");
+}
+
+#[test]
 fn picture_under_another_number_is_rendered_again() {
     let (place, whole) = (Place::new(), Place::new());
     whole.done(&[]);

@@ -16,6 +16,7 @@ mod equivalence;
 mod fill;
 mod film;
 mod fizeau;
+mod formats;
 mod fresnel;
 mod furnace;
 mod glass;

@@ -8,6 +8,7 @@ use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::scene::Scene;
 use crate::spectrum::Wavelengths;
+use crate::surface::{Look, Surface};
 use crate::trace::{Cone, First, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -103,6 +104,18 @@ pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Op
     let lit = scene.lit().seen_from(view.tetrad.event);
     let first =
         |column: usize, row: usize| lit.first(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)));
+    by_pixel(width, height, first)
+}
+
+/// The same with the colours of surfaces by daylight at rest, linear sRGB.
+pub fn first_colors(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<(First, DVec3)>> {
+    let lit = scene.lit().seen_from(view.tetrad.event);
+    let color = |surface: Option<&Surface>, look: &Look<'_>| {
+        surface.map_or(DVec3::ZERO, |surface| surface.albedo(look))
+    };
+    let first = |column: usize, row: usize| {
+        lit.first_and(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)), color)
+    };
     by_pixel(width, height, first)
 }
 

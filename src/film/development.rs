@@ -34,6 +34,17 @@ impl Development {
         pixels.into_flattened()
     }
 
+    /// The same in 16 bits a channel; [`crate::output::eight_of`] each of them is what [`Self::develop`] gives.
+    pub fn develop_finely(&self, negative: &Negative) -> Vec<u16> {
+        let steps = EncodingSteps::new();
+        let developed = |xyz: &[f32; 3]| {
+            let rgb = self.display(DVec3::from(xyz.map(f64::from)));
+            rgb.to_array().map(|channel| steps.fine(channel))
+        };
+        let pixels: Vec<[u16; 3]> = negative.xyz.par_iter().map(developed).collect();
+        pixels.into_flattened()
+    }
+
     /// Linear sRGB in 0 to 1. Each colour keeps its hue (of OKLab): what is too bright is compressed by its greatest channel
     /// and turns part of the way to white, and what no screen can show goes towards grey of the same luminance.
     pub fn display(&self, xyz: DVec3) -> DVec3 {
@@ -169,5 +180,12 @@ impl EncodingSteps {
             byte += 1;
         }
         byte
+    }
+
+    /// In 65535 parts; whatever a power rounds to, it stays within those that round to the byte.
+    fn fine(&self, linear: f64) -> u16 {
+        let byte = 257 * i32::from(self.byte(linear));
+        let value = (srgb_encode(linear) * 65535.0).round() as i32;
+        value.clamp(byte - 128, byte + 128).clamp(0, 65535) as u16
     }
 }

@@ -1,110 +1,16 @@
-//! When pictures are taken, what they are like, and where they go.
+//! What pictures are like.
 
-use super::Spanned;
 use super::light::{Amount, Luminance};
-use super::node::{Content, Node};
-use super::plain::{Count, FilePath, Placed, Real, Switch, Text, whole, words};
-use super::quantity::{Instant, Written};
+use super::node::Node;
+use super::plain::{Count, Real, Switch, whole, words};
+use super::quantity::Written;
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, record};
-use crate::error::Place;
-use std::path::{Path, PathBuf};
 
 /// Most pixels of a picture.
 const MOST_PIXELS: u64 = 1 << 28;
 /// Greatest width and height.
 const LONGEST_SIDE: u32 = 65_536;
-/// Most exposures.
-const MOST_EXPOSURES: u32 = 1_000_000;
-
-words! {
-    /// The clock by which exposures are timed.
-    Clock, "a clock" {
-        /// The observer's own.
-        "own" => Own;
-        /// That of the lab.
-        "lab" => Lab;
-    }
-}
-
-record! {
-    /// When pictures are taken: `count` of them from `from` to `to`, both included, or one `at` a time.
-    ExposuresKeys, "the exposures" {
-        /// The first.
-        from: Option<f64> = Instant, optional, "-4 s";
-        /// The last.
-        to: Option<Spanned<f64>> = Placed<Instant>, optional, "9 s";
-        /// The only one (or that of a ring of observers).
-        at: Option<Spanned<f64>> = Placed<Instant>, optional, "2 s";
-        /// How many.
-        count: Option<u32> = Count<1, MOST_EXPOSURES>, optional, "96";
-        /// By whose clock: `own` (the observer's proper time) unless said.
-        clock: Clock = Clock, default(Clock::Own), "lab";
-    }
-}
-
-/// When pictures are taken. Metres of light travel.
-#[derive(Debug, Clone)]
-pub struct Exposures {
-    /// Where it is written.
-    pub place: Place,
-    /// The first; with a `count` of 1 the only one.
-    pub from: f64,
-    /// The last.
-    pub to: f64,
-    /// How many, evenly spaced.
-    pub count: u32,
-    /// By whose clock.
-    pub clock: Clock,
-}
-
-/// Exposures, checked.
-pub(crate) struct ExposuresKind;
-
-impl Kind for ExposuresKind {
-    type Value = Exposures;
-    fn shape() -> Shape {
-        ExposuresKeys::shape()
-    }
-    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Exposures> {
-        let keys = ExposuresKeys::read(node, reader)?;
-        let (from, to) = span(&keys, reader)?;
-        let Some(to) = to else {
-            let count = keys.count.unwrap_or(1);
-            if count == 1 || reader.ring {
-                return Ok(Exposures { place: keys.place, from, to: from, count, clock: keys.clock });
-            }
-            let what = format!("{count} exposures need a time from which and one to which");
-            return Err(reader.fault(&keys.place, what, "from: 0 s, to: 4 s"));
-        };
-        let Some(count) = keys.count else {
-            return Err(reader.fault(&keys.place, "how many exposures?", "count: 96"));
-        };
-        let instant_ring = reader.ring && to.value >= from;
-        if count > 1 && to.value <= from && !instant_ring {
-            let text = |key: &str| node.get(key).and_then(|node| node.text()).unwrap_or("0 s").to_owned();
-            let hint = format!("from: {}, to: {}", text("to"), text("from"));
-            return Err(reader.fault(&to.place, "`to` is not later than `from`", hint));
-        }
-        Ok(Exposures { place: keys.place, from, to: to.value, count, clock: keys.clock })
-    }
-}
-
-/// The first time, and the last if it is written.
-fn span(keys: &ExposuresKeys, reader: &mut Reader<'_>) -> Read<(f64, Option<Spanned<f64>>)> {
-    match (&keys.from, &keys.to, &keys.at) {
-        (None, None, at) => Ok((at.as_ref().map_or(0.0, |at| at.value), None)),
-        (Some(_), _, Some(at)) | (None, Some(_), Some(at)) => {
-            let what = "exposures are either `at` a time or `from` one `to` another";
-            Err(reader.fault(&at.place, what, "remove `at`, or `from` and `to`"))
-        }
-        (None, Some(to), None) => {
-            Err(reader.fault(&to.place, "exposures have a `to` but no `from`", "from: 0 s"))
-        }
-        (Some(from), to, None) => Ok((*from, to.clone())),
-    }
-}
-
 words! {
     /// How much of its surroundings a pixel shows.
     Filter, "a filter" {
@@ -295,93 +201,6 @@ record! {
         /// How far above white light is still told apart, in factors of two: the more, the flatter the picture. 0 cuts off at white;
         /// `auto` (unless said) goes by what is brightest in the whole film.
         headroom: Option<f64> = Headroom, default(None), "8";
-    }
-}
-
-/// Pictures in a second of the film.
-struct Rate;
-
-impl Kind for Rate {
-    type Value = f64;
-    fn shape() -> Shape {
-        Shape::Number("pictures in a second")
-    }
-    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
-        let rate = Real::read(node, reader)?;
-        if (0.1..=1000.0).contains(&rate) {
-            return Ok(rate);
-        }
-        let hint = reader.typed("24 (from 0.1 to 1000)");
-        Err(reader.fault(&node.place, format!("a film cannot run at {rate} pictures a second"), hint))
-    }
-}
-
-/// The name of a file, without folders.
-struct FileName;
-
-impl Kind for FileName {
-    type Value = String;
-    fn shape() -> Shape {
-        Shape::Text("the name of a file, without folders")
-    }
-    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<String> {
-        let name = Text::read(node, reader)?;
-        let plain = !name.contains(['/', '\\', ':', '\0']) && !name.starts_with('.');
-        let is_film = Path::new(&name).extension().is_some_and(|extension| extension == "mp4");
-        if plain && is_film {
-            return Ok(name);
-        }
-        if plain {
-            let hint = reader.typed(&format!("{}.mp4", name.split('.').next().unwrap_or("film")));
-            return Err(reader.fault(&node.place, format!("a film is an MP4 file; `{name}` is not"), hint));
-        }
-        let hint = format!("{}; `output` is where the folder is named", reader.typed("flyby.mp4"));
-        Err(reader.fault(&node.place, format!("`{name}` is not the name of a file"), hint))
-    }
-}
-
-record! {
-    /// The film that is made of the exposures.
-    pub Film, "the film" {
-        /// Pictures in a second.
-        rate: f64 = Rate, default(24.0), "24";
-        /// Its file in the output folder.
-        file: Option<String> = FileName, optional, "flyby.mp4";
-        /// Whether a video is made, beside the pictures.
-        video: bool = Switch, default(true), "off";
-    }
-}
-
-impl Film {
-    /// The film that is made if nothing is said about it.
-    pub(crate) fn usual() -> Self {
-        Self { place: Place::Command, rate: 24.0, file: None, video: true }
-    }
-}
-
-record! {
-    /// Where everything goes that is written.
-    pub Output, "the output" {
-        /// The folder.
-        folder: PathBuf = FilePath, required, "../out/flyby";
-        /// Whether pictures are written as OpenEXR too: `R G B` and `cie.X cie.Y cie.Z` in cd/m2, `doppler` (seen over emitted), `emission_time` (lab, s), `body` (its number from 0; -1 for none, where the other two are 0).
-        exr: bool = Switch, default(false), "on";
-    }
-}
-
-/// The output: a folder, or a map.
-pub(crate) struct OutputKind;
-
-impl Kind for OutputKind {
-    type Value = Output;
-    fn shape() -> Shape {
-        Shape::Either(vec![FilePath::shape(), Output::shape()])
-    }
-    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Output> {
-        if matches!(node.content, Content::Map(_)) {
-            return <Output as Kind>::read(node, reader);
-        }
-        Ok(Output { place: node.place.clone(), folder: FilePath::read(node, reader)?, exr: false })
     }
 }
 

@@ -1,9 +1,10 @@
-//! Finished pictures to files: PNG to look at, `OpenEXR` to compute with, MP4 to play.
+//! Finished pictures to files: PNG and BMP to look at, `OpenEXR` to compute with, MP4 to play.
 //!
 //! Everything here takes plain numbers and knows nothing of scenes. A file appears under its name whole or
 //! not at all, so a render that was stopped can be resumed by looking at which files are there; and the same
 //! numbers give the same bytes.
 
+mod bmp;
 mod exr;
 pub mod movie;
 #[cfg(feature = "video")]
@@ -14,9 +15,10 @@ mod reel;
 #[cfg(feature = "video")]
 mod yuv;
 
-pub use self::exr::{Layers, write_exr};
+pub use self::bmp::{read_bmp, write_bmp};
+pub use self::exr::{Channel, ExrForm, Measured, check_exr, exr_texts, write_exr};
 pub use self::movie::Movie;
-pub use self::png::{Picture8, png_texts, read_png, write_png};
+pub use self::png::{Picture8, Picture16, ReadPng, eight_of, png_texts, read_png, write_png, write_png16};
 
 use crate::error::Error;
 use std::fs::{self, File, OpenOptions};

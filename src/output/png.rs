@@ -1,4 +1,4 @@
-//! 8-bit PNG pictures.
+//! PNG pictures of 8 and 16 bits a channel.
 
 use super::write_whole;
 use crate::error::Error;
@@ -20,10 +20,38 @@ pub struct Picture8<'a> {
     pub text: &'a [(&'a str, String)],
 }
 
+/// A picture of 16 bits a channel.
+#[derive(Debug, Clone, Copy)]
+pub struct Picture16<'a> {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// As in [`Picture8`], from 0 to 65535.
+    pub rgb: &'a [u16],
+    /// As in [`Picture8`].
+    pub text: &'a [(&'a str, String)],
+}
+
 /// Writes a PNG file with an `sRGB` chunk (rendering intent perceptual) and the texts, `tEXt` where ASCII
 /// suffices and `iTXt` (UTF-8) elsewhere. The same picture gives the same bytes.
 pub fn write_png(path: &Path, picture: &Picture8<'_>) -> Result<(), Error> {
-    write_whole(path, |file| encode(file, picture).map_err(io::Error::from))
+    let Picture8 { width, height, rgb, text } = *picture;
+    let kind = (width, height, png::BitDepth::Eight);
+    write_whole(path, |file| encode(file, kind, rgb, text).map_err(io::Error::from))
+}
+
+/// Writes a PNG file of 16 bits a channel.
+pub fn write_png16(path: &Path, picture: &Picture16<'_>) -> Result<(), Error> {
+    let Picture16 { width, height, rgb, text } = *picture;
+    let bytes: Vec<u8> = rgb.iter().flat_map(|value| value.to_be_bytes()).collect();
+    let kind = (width, height, png::BitDepth::Sixteen);
+    write_whole(path, |file| encode(file, kind, &bytes, text).map_err(io::Error::from))
+}
+
+/// The 8 bits of a value of 16: both are roundings of the same number.
+pub fn eight_of(sixteen: u16) -> u8 {
+    ((u32::from(sixteen) + 128) / 257) as u8
 }
 
 /// The texts in a PNG file by their keywords; empty if it is no PNG file.
@@ -36,31 +64,51 @@ pub fn png_texts(path: &Path) -> BTreeMap<String, String> {
     texts.map(|text| (text.keyword.clone(), text.text.clone())).collect()
 }
 
-/// Red, green and blue of every pixel of a PNG file that [`write_png`] has written, `size` pixels across and down; an error
-/// if anything is wrong with it.
-pub fn read_png(path: &Path, size: (u32, u32)) -> Result<Vec<u8>, Error> {
-    let read = || -> io::Result<Vec<u8>> {
+/// A PNG picture that was read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReadPng {
+    /// Whether it has 16 bits a channel.
+    pub sixteen: bool,
+    /// Red, green and blue of every pixel, of 8 bits.
+    pub rgb: Vec<u8>,
+}
+
+/// Reads a PNG file that this program has written, `size` pixels across and down; an error if anything is wrong with it,
+/// to its last byte.
+pub fn read_png(path: &Path, size: (u32, u32)) -> Result<ReadPng, Error> {
+    let read = || -> io::Result<ReadPng> {
         let mut reader = png::Decoder::new(BufReader::new(File::open(path)?)).read_info()?;
-        let info = reader.info();
-        if (info.color_type, info.bit_depth, info.size()) != (png::ColorType::Rgb, png::BitDepth::Eight, size)
-        {
+        let (kind, depth, found) = (reader.info().color_type, reader.info().bit_depth, reader.info().size());
+        let sixteen = depth == png::BitDepth::Sixteen;
+        let known = kind == png::ColorType::Rgb && (sixteen || depth == png::BitDepth::Eight);
+        if !known || found != size {
             return Err(io::Error::new(io::ErrorKind::InvalidData, "it is another kind of picture"));
         }
-        let mut rgb = vec![0; 3 * size.0 as usize * size.1 as usize];
+        let bytes = if sixteen { 6 } else { 3 };
+        let mut rgb = vec![0; bytes * size.0 as usize * size.1 as usize];
         reader.next_frame(&mut rgb)?;
         reader.finish()?;
-        Ok(rgb)
+        if sixteen {
+            rgb =
+                rgb.chunks_exact(2).map(|value| eight_of(u16::from_be_bytes([value[0], value[1]]))).collect();
+        }
+        Ok(ReadPng { sixteen, rgb })
     };
     read().map_err(|source| Error::machine(path, "reading", source))
 }
 
-fn encode(file: impl io::Write, picture: &Picture8<'_>) -> Result<(), png::EncodingError> {
-    let mut encoder = png::Encoder::new(file, picture.width, picture.height);
+fn encode(
+    file: impl io::Write,
+    (width, height, depth): (u32, u32, png::BitDepth),
+    rgb: &[u8],
+    text: &[(&str, String)],
+) -> Result<(), png::EncodingError> {
+    let mut encoder = png::Encoder::new(file, width, height);
     encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_depth(depth);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::Fast);
-    for (keyword, text) in picture.text {
+    for (keyword, text) in text {
         if text.is_ascii() {
             encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
         } else {
@@ -68,6 +116,6 @@ fn encode(file: impl io::Write, picture: &Picture8<'_>) -> Result<(), png::Encod
         }
     }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(picture.rgb)?;
+    writer.write_image_data(rgb)?;
     writer.finish()
 }

@@ -3,6 +3,9 @@
 pub mod needs;
 
 mod limits;
+mod outputs;
+
+pub use outputs::{Measured, Outputs, Picture};
 
 use crate::error::Report;
 use crate::exposure::Sampling;
@@ -52,10 +55,12 @@ pub struct Plan {
     pub white: White,
     /// How far above white light is still told apart, factors of two; none if the film's brightness shall say it.
     pub headroom: Option<f64>,
+    /// How much brighter that is than what is asked for, in factors of two.
+    pub stops: f64,
     /// Pictures per second of the film; none if no film is wanted.
     pub film_rate: Option<f64>,
-    /// Whether OpenEXR files are wanted.
-    pub exr: bool,
+    /// What is written of each exposure.
+    pub outputs: Outputs,
     /// The folder for all files.
     pub folder: PathBuf,
     /// The film's file in it.
@@ -139,8 +144,9 @@ impl Plan {
             still: needs::still(scene).yes,
             white: white(picture),
             headroom: picture.headroom,
+            stops: picture.stops,
             film_rate,
-            exr: manifest.output.exr,
+            outputs: Outputs::of(&manifest.output),
             folder: manifest.output.folder.clone(),
             film_file: file,
             seconds_per_metre: 1.0 / manifest.light_speed,

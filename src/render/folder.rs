@@ -3,10 +3,10 @@
 //! The pictures are their own ledger. Each appears under its name when it is whole, with the film's fingerprint in it; what
 //! has the fingerprint is kept, and what has another is never mixed with it.
 
-use super::Step;
+use super::{Step, files};
 use crate::error::{Error, Fault, Place};
-use crate::output::{self, exposure_name};
-use crate::plan::{Fingerprint, Plan};
+use crate::output;
+use crate::plan::{Fingerprint, Picture, Plan};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -41,14 +41,19 @@ pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Ste
     }
     let lock = lock(plan, tell)?;
     if lock.is_some() {
-        output::remove_parts(&plan.folder, |name| number(name).is_some() || name == plan.film_file);
+        output::remove_parts(&plan.folder, |name| picture(name).is_some() || name == plan.film_file);
     }
     let there = there(plan)?;
     let mut kept = BTreeSet::new();
     if let Some(own) = &own {
         refuse_others(plan, own, &there)?;
-        let ours = there.into_par_iter().filter(|one| chosen.contains(&one.index) && one.is_whole(plan, own));
-        kept = ours.map(|one| one.index).collect();
+        let ours = there.iter().filter(|one| chosen.contains(&one.index) && one.is_of(plan, own));
+        let named: BTreeSet<(usize, Picture)> = ours.map(|one| (one.index, one.picture)).collect();
+        let texted: Vec<Picture> =
+            plan.outputs.pictures().into_iter().filter(|one| has_texts(*one)).collect();
+        let complete = |index: &usize| texted.iter().all(|picture| named.contains(&(*index, *picture)));
+        let complete: Vec<usize> = chosen.clone().filter(complete).collect();
+        kept = complete.into_par_iter().filter(|index| files::are_whole(plan, *index)).collect();
     } else if chosen.len() == plan.exposures.len() {
         remove_others(plan.fingerprint().as_ref(), &there)?;
     }
@@ -125,6 +130,7 @@ fn lock(plan: &Plan, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error>
 /// A file with the name of a picture.
 struct There {
     index: usize,
+    picture: Picture,
     path: PathBuf,
     // None for what this program has not made.
     fingerprint: Option<Fingerprint>,
@@ -132,22 +138,25 @@ struct There {
 }
 
 impl There {
-    /// Whether it is its exposure's picture, and, like what belongs to it, can be read.
-    fn is_whole(&self, plan: &Plan, own: &Fingerprint) -> bool {
-        let size = (plan.sampling.width, plan.sampling.height);
+    /// Whether it is a file of its exposure of this film.
+    fn is_of(&self, plan: &Plan, own: &Fingerprint) -> bool {
         self.fingerprint.as_ref() == Some(own)
             && self.exposure == Some(self.index)
-            && self.path == picture(plan, self.index)
-            && output::read_png(&self.path, size).is_ok()
-            && (!plan.exr || self.path.with_extension("exr").metadata().is_ok_and(|exr| exr.len() > 0))
+            && self.path == plan.picture(self.index, self.picture)
     }
 }
 
-/// The number that is the name of a picture, or of a file beside it.
-fn number(name: &str) -> Option<usize> {
-    let (digits, extension) = name.split_once('.')?;
+/// Whether such a file says whose it is. (What does not is compared with what does.)
+fn has_texts(picture: Picture) -> bool {
+    picture != Picture::Bmp
+}
+
+/// The number and the kind of a file that has the name of a picture.
+fn picture(name: &str) -> Option<(usize, Picture)> {
+    let (digits, ending) = name.split_once('.')?;
+    let picture = Picture::ALL.into_iter().find(|picture| picture.ending() == ending)?;
     let is_number = digits.len() >= 4 && digits.bytes().all(|byte| byte.is_ascii_digit());
-    if is_number && matches!(extension, "png" | "exr") { digits.parse().ok() } else { None }
+    if is_number { digits.parse().ok().map(|number| (number, picture)) } else { None }
 }
 
 /// All files with names of pictures; empty ones are what a loss of power leaves.
@@ -157,28 +166,28 @@ fn there(plan: &Plan) -> Result<Vec<There>, Error> {
     for entry in std::fs::read_dir(&plan.folder).map_err(wrong)? {
         let path = entry.map_err(wrong)?.path();
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let is_picture = path.extension().is_some_and(|extension| extension == "png");
-        let Some(index) = number(&name).filter(|_| is_picture) else { continue };
+        let Some((index, picture)) = picture(&name).filter(|(_, picture)| has_texts(*picture)) else {
+            continue;
+        };
         if path.metadata().is_ok_and(|about| about.is_file() && about.len() > 0) {
-            let texts = output::png_texts(&path);
+            let texts = files::texts(&path, picture);
             let fingerprint = texts.get(FINGERPRINT).and_then(|text| Fingerprint::parse(text));
             let exposure = texts.get(EXPOSURE).and_then(|text| text.parse().ok());
-            there.push(There { index, path, fingerprint, exposure });
+            there.push(There { index, picture, path, fingerprint, exposure });
         }
     }
-    there.sort_by(|a, b| a.path.cmp(&b.path));
+    // What is looked at first is told first.
+    there.sort_by(|a, b| (a.index, b.picture, &a.path).cmp(&(b.index, a.picture, &b.path)));
     Ok(there)
-}
-
-/// The picture of an exposure.
-pub(super) fn picture(plan: &Plan, index: usize) -> PathBuf {
-    plan.folder.join(exposure_name(index, plan.exposures.len()))
 }
 
 /// A fault if pictures of another film are there.
 fn refuse_others(plan: &Plan, own: &Fingerprint, there: &[There]) -> Result<(), Error> {
-    let film: BTreeSet<PathBuf> =
-        plan.exposures.iter().map(|exposure| picture(plan, exposure.index)).collect();
+    let film: BTreeSet<PathBuf> = plan
+        .exposures
+        .iter()
+        .flat_map(|exposure| plan.outputs.pictures().into_iter().map(|one| plan.picture(exposure.index, one)))
+        .collect();
     let other = there.iter().find(|one| match &one.fingerprint {
         Some(other) => other != own,
         None => film.contains(&one.path),
@@ -210,8 +219,10 @@ fn remove_others(own: Option<&Fingerprint>, there: &[There]) -> Result<(), Error
     for one in there.iter().filter(|one| one.fingerprint.is_some() && one.fingerprint.as_ref() != own) {
         let removed = std::fs::remove_file(&one.path);
         removed.map_err(|source| Error::machine(&one.path, "removing a picture of another film", source))?;
-        // If it has one.
-        let _ = std::fs::remove_file(one.path.with_extension("exr"));
+        if one.picture == Picture::Png {
+            // What says nothing of itself goes with it, if it is there.
+            let _ = std::fs::remove_file(one.path.with_extension(Picture::Bmp.ending()));
+        }
     }
     Ok(())
 }

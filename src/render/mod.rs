@@ -1,17 +1,17 @@
 //! The film: exposures one after another, developed alike, to files.
 
+mod about;
+mod files;
 mod folder;
+mod layers;
 
-use crate::color::RGB_FROM_XYZ;
 use crate::error::Error;
-use crate::exposure::{Sampling, Uncertainty, expose, expose_settled, first_hits};
+use crate::exposure::{Sampling, Uncertainty, expose, expose_settled};
 use crate::film::{Brightness, Development, Negative};
 use crate::observer::View;
-use crate::output::{self, Layers, Movie, Picture8};
-use crate::plan::{Exposure, Plan, White};
+use crate::output::{self, Movie};
+use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
-use crate::trace::First;
-use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, sync_channel};
 
@@ -46,8 +46,14 @@ struct Print {
     exposure: Exposure,
     negative: Negative,
     settling: Option<Settling>,
-    firsts: Option<Vec<Option<First>>>,
+    // What is seen of each pixel beside its light, where that is asked for.
+    seen: Option<Vec<Option<layers::Seen>>>,
     rgb: Vec<u8>,
+    // The same in 16 bits, where that is asked for.
+    fine: Option<Vec<u16>>,
+    // What is shown as white, cd/m².
+    white: f64,
+    text: Vec<(&'static str, String)>,
 }
 
 /// What the writer gets.
@@ -140,8 +146,16 @@ fn print(
     (negative, settling): (Negative, Option<Settling>),
 ) -> Print {
     let view = view(scene, plan, exposure);
-    let firsts = plan.exr.then(|| first_hits(scene, &view, negative.width, negative.height));
-    Print { exposure: *exposure, rgb: development.develop(&negative), negative, settling, firsts }
+    let asked = plan.outputs.exr.as_ref().is_some_and(layers::asks_rays);
+    let seen = asked.then(|| layers::seen(scene, &view, negative.width, negative.height));
+    let fine = plan.outputs.sixteen.then(|| development.develop_finely(&negative));
+    let rgb = match &fine {
+        Some(fine) => fine.iter().map(|value| output::eight_of(*value)).collect(),
+        None => development.develop(&negative),
+    };
+    let white = development.white;
+    let text = about::of_picture(scene, plan, exposure, white);
+    Print { exposure: *exposure, rgb, fine, negative, settling, seen, white, text }
 }
 
 fn file_all(
@@ -150,66 +164,27 @@ fn file_all(
     inbox: &Receiver<Sheet>,
     mut tell: impl FnMut(Step),
 ) -> Result<(), Error> {
-    let size = (plan.sampling.width, plan.sampling.height);
     for sheet in inbox {
         let print = match sheet {
             Sheet::New(print) => print,
             Sheet::Kept(index) => {
                 if let Some(movie) = &mut movie {
-                    movie.push(&output::read_png(&folder::picture(plan, index), size)?)?;
+                    movie.push(&files::read(plan, index)?)?;
                 }
                 continue;
             }
         };
-        let path = folder::picture(plan, print.exposure.index);
-        let text = labels(plan, print.exposure.index);
-        if let Some(firsts) = &print.firsts {
-            write_exr(plan, &path.with_extension("exr"), &print, (firsts, &text))?;
-        }
-        let Negative { width, height, .. } = print.negative;
-        output::write_png(&path, &Picture8 { width, height, rgb: &print.rgb, text: &text })?;
+        files::write(plan, &print)?;
         if let Some(movie) = &mut movie {
             movie.push(&print.rgb)?;
         }
-        tell(Step::Picture(path, print.settling));
+        tell(Step::Picture(plan.picture(print.exposure.index, Picture::Png), print.settling));
     }
     if let Some(movie) = movie {
         movie.finish()?;
         tell(Step::Film(plan.folder.join(&plan.film_file)));
     }
     Ok(())
-}
-
-/// What is written into a picture.
-fn labels(plan: &Plan, index: usize) -> Vec<(&'static str, String)> {
-    let fingerprint = plan.fingerprint().map(|fingerprint| (folder::FINGERPRINT, fingerprint.to_string()));
-    let exposure = (folder::EXPOSURE, index.to_string());
-    plan.text.iter().cloned().chain([exposure]).chain(fingerprint).collect()
-}
-
-fn write_exr(
-    plan: &Plan,
-    path: &std::path::Path,
-    print: &Print,
-    (firsts, text): (&[Option<First>], &[(&str, String)]),
-) -> Result<(), Error> {
-    let rgb = |xyz: &[f32; 3]| (*RGB_FROM_XYZ * DVec3::from(xyz.map(f64::from))).as_vec3().to_array();
-    let number =
-        |of: &dyn Fn(&First) -> f64| firsts.iter().map(|f| f.as_ref().map_or(0.0, of) as f32).collect();
-    let doppler: Vec<f32> = number(&|first| first.doppler.factor());
-    let emission_time: Vec<f32> = number(&|first| first.emission.t * plan.seconds_per_metre);
-    let layers = Layers {
-        width: print.negative.width as usize,
-        height: print.negative.height as usize,
-        rgb: &print.negative.xyz.iter().map(rgb).collect::<Vec<_>>(),
-        white_luminance: 1.0,
-        xyz: &print.negative.xyz,
-        doppler: &doppler,
-        emission_time: &emission_time,
-        body: &firsts.iter().map(|f| f.as_ref().map_or(-1, |first| first.body as i32)).collect::<Vec<_>>(),
-        text,
-    };
-    output::write_exr(path, &layers)
 }
 
 /// Columns of the small pictures by which a film is metered, and how many there are at most.

@@ -1,5 +1,6 @@
 //! What surfaces do with light, each law in the surface's own rest frame.
 
+mod albedo;
 mod glass;
 mod gloss;
 mod microfacet;
