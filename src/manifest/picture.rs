@@ -15,7 +15,7 @@ const MOST_PIXELS: u64 = 1 << 28;
 /// Greatest width and height.
 const LONGEST_SIDE: u32 = 65_536;
 /// Most exposures.
-const MOST_EXPOSURES: u32 = 1_000_000;
+pub(super) const MOST_EXPOSURES: u32 = 1_000_000;
 
 words! {
     /// The clock by which exposures are timed.

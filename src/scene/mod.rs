@@ -7,7 +7,7 @@ mod models;
 mod sky;
 mod solids;
 
-pub use compose::compose;
+pub use compose::{compose, compose_rest};
 pub(crate) use compose::placement;
 pub use materials::UNLIT_LUMINANCE;
 
