@@ -2,12 +2,17 @@
 
 use crate::error::{Fault, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Faults shown in full; the rest are counted.
 const SHOWN: usize = 100;
-/// Longest line that is shown, bytes.
-const LONGEST_LINE: usize = 1000;
+/// Longest line that is shown whole, bytes.
+const LONGEST_LINE: usize = 300;
+/// Bytes that are shown of a longer line before and after what is meant, and of that.
+const CONTEXT: usize = 60;
+/// Where flags are.
+const COMMAND: &str = "the command line";
 
 /// The faults (or warnings) one after the other, each ended by a blank line; colours by ANSI escapes.
 pub fn render(faults: &[Fault], warnings: bool, color: bool) -> String {
@@ -25,39 +30,90 @@ pub fn render(faults: &[Fault], warnings: bool, color: bool) -> String {
 
 fn one(fault: &Fault, warning: bool, renderer: &Renderer) -> String {
     let level = if warning { Level::WARNING } else { Level::ERROR };
-    let (what, hint) = (visible(&fault.what), visible(&fault.hint));
-    let group = level.primary_title(what);
-    let mut group: Group<'_> = match &fault.place {
-        Place::Text { path, text, span } => {
-            let path = visible(&path.display().to_string());
-            let (number, line, within) = line(text, span);
-            if line.len() > LONGEST_LINE {
-                group.element(Origin::path(format!("{path}:{number}")))
-            } else {
-                let snippet = Snippet::source(line).line_start(number).path(path);
-                group.element(snippet.annotation(AnnotationKind::Primary.span(within)))
-            }
-        }
-        Place::Command => group.element(Origin::path("the command line")),
-        place => group.element(Origin::path(visible(&place.to_string()))),
-    };
+    let mut group: Group<'_> = Group::with_title(level.primary_title(visible(&fault.what)));
+    group = located(group, &fault.place, AnnotationKind::Primary, "");
+    for (place, what) in &fault.also {
+        group = located(group, place, AnnotationKind::Context, what);
+    }
+    let hint = visible(&fault.hint);
     if !hint.is_empty() {
         group = group.element(Level::HELP.message(hint));
     }
     renderer.render(&[group])
 }
 
-/// The number and text of the line in which a span begins, and what of the span is in that line.
-fn line<'t>(text: &'t str, span: &Range<usize>) -> (usize, &'t str, Range<usize>) {
-    let start = span.start.min(text.len());
-    let before = text.get(..start).unwrap_or_default();
-    let number = before.matches('\n').count() + 1;
-    let from = before.rfind('\n').map_or(0, |newline| newline + 1);
-    let rest = text.get(from..).unwrap_or_default();
-    let line = rest.split(['\n', '\r']).next().unwrap_or_default();
-    let begin = (start - from).min(line.len());
-    let end = span.end.saturating_sub(from).clamp(begin, line.len());
-    (number, line, begin..end)
+/// Adds a place, with its line and a mark below what is meant.
+fn located<'a>(group: Group<'a>, place: &'a Place, kind: AnnotationKind, label: &str) -> Group<'a> {
+    let (text, span, path) = match place {
+        Place::Text { path, text, span } => (text, span, visible(&path.display().to_string())),
+        Place::Argument { text, span } => (text, span, COMMAND.to_owned()),
+        Place::Command => return group.element(Origin::path(COMMAND)),
+        place => return group.element(Origin::path(visible(&place.to_string()))),
+    };
+    let line = Line::of(text, span);
+    let mut mark = kind.span(line.marked);
+    if !label.is_empty() {
+        mark = mark.label(visible(label));
+    }
+    let snippet = Snippet::source(line.text).line_start(line.number).annotation(mark);
+    match (place, line.whole) {
+        (Place::Text { .. }, true) => group.element(snippet.path(path)),
+        (Place::Text { .. }, false) => {
+            group.element(Origin::path(path).line(line.number).char_column(line.column)).element(snippet)
+        }
+        _ => group.element(Origin::path(path)).element(snippet.line_numbering(false)),
+    }
+}
+
+/// The line in which a span begins.
+struct Line<'t> {
+    number: usize,
+    /// Where the span begins, in characters from 1.
+    column: usize,
+    /// The line, or what stands around the span if it is too long to be shown.
+    text: Cow<'t, str>,
+    /// What of the span is in it, bytes.
+    marked: Range<usize>,
+    /// Whether it is the whole line.
+    whole: bool,
+}
+
+impl<'t> Line<'t> {
+    fn of(text: &'t str, span: &Range<usize>) -> Self {
+        // A byte order mark is no character of the first line.
+        let mark = text.len() - text.trim_start_matches('\u{feff}').len();
+        let start = span.start.clamp(mark, text.len().max(mark));
+        let before = text.get(mark..start).unwrap_or_default();
+        let number = before.matches('\n').count() + 1;
+        let from = mark + before.rfind('\n').map_or(0, |newline| newline + 1);
+        let rest = text.get(from..).unwrap_or_default();
+        let line = rest.split(['\n', '\r']).next().unwrap_or_default();
+        let begin = (start - from).min(line.len());
+        let end = span.end.saturating_sub(from).clamp(begin, line.len());
+        let column = line.get(..begin).unwrap_or_default().chars().count() + 1;
+        if line.len() <= LONGEST_LINE {
+            return Self { number, column, text: line.into(), marked: begin..end, whole: true };
+        }
+        let (text, marked) = around(line, begin, end.min(begin + CONTEXT));
+        Self { number, column, text: text.into(), marked, whole: false }
+    }
+}
+
+/// A stretch of a line with what is around it, and where it is in that.
+fn around(line: &str, begin: usize, end: usize) -> (String, Range<usize>) {
+    let boundary = |mut at: usize| {
+        while !line.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    };
+    let (begin, end) = (boundary(begin), boundary(end));
+    let (from, to) = (boundary(begin.saturating_sub(CONTEXT)), boundary((end + CONTEXT).min(line.len())));
+    let part = |range: Range<usize>| line.get(range).unwrap_or_default();
+    let before = if from > 0 { "…" } else { "" }.to_owned() + part(from..begin);
+    let marked = before.len()..before.len() + part(begin..end).len();
+    let after = part(end..to).to_owned() + if to < line.len() { "…" } else { "" };
+    (before + part(begin..end) + &after, marked)
 }
 
 /// Text without control characters, which could do things to a terminal.

@@ -15,7 +15,7 @@ pub enum Place {
     /// A stretch of a text file: the bytes `span` of `text`.
     Text {
         /// The file, as the user named it.
-        path: PathBuf,
+        path: Arc<Path>,
         /// The whole text of the file.
         text: Arc<str>,
         /// The stretch of `text`, in bytes.
@@ -32,6 +32,13 @@ pub enum Place {
     File {
         /// The file.
         path: PathBuf,
+    },
+    /// A stretch of an argument of the command.
+    Argument {
+        /// The argument as typed.
+        text: Arc<str>,
+        /// The stretch of `text`, in bytes.
+        span: Range<usize>,
     },
     /// The command line or nothing in particular.
     Command,
@@ -52,6 +59,7 @@ impl Place {
     pub fn line_column(&self) -> Option<(usize, usize)> {
         let Self::Text { text, span, .. } = self else { return None };
         let before = text.get(..span.start)?;
+        let before = before.strip_prefix('\u{feff}').unwrap_or(before);
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
         Some((line, column))
@@ -67,6 +75,7 @@ impl fmt::Display for Place {
             }
             Self::Element { path, element } => write!(f, "{}: {element}", path.display()),
             Self::File { path } => write!(f, "{}", path.display()),
+            Self::Argument { text, .. } => f.write_str(text),
             Self::Command => write!(f, "terrell"),
         }
     }
@@ -81,18 +90,30 @@ pub struct Fault {
     pub what: String,
     /// What to do about it, one line; empty when there is nothing to say.
     pub hint: String,
+    /// Other places that have to do with it, each with what is there.
+    pub also: Vec<(Place, String)>,
 }
 
 impl Fault {
     /// A fault with a hint (which may be empty).
     pub fn new(place: Place, what: impl Into<String>, hint: impl Into<String>) -> Self {
-        Self { place, what: what.into(), hint: hint.into() }
+        Self { place, what: what.into(), hint: hint.into(), also: Vec::new() }
+    }
+
+    /// With another place that has to do with it.
+    #[must_use]
+    pub fn and(mut self, place: Place, what: impl Into<String>) -> Self {
+        self.also.push((place, what.into()));
+        self
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.place, self.what)?;
+        for (place, what) in &self.also {
+            write!(f, "\n  {place}: {what}")?;
+        }
         if !self.hint.is_empty() {
             write!(f, "\n  help: {}", self.hint)?;
         }

@@ -1,7 +1,7 @@
 //! What a film is made of: what the manifest says, and the files that it reads. By that a film is known again.
 
 use sha2::{Digest as _, Sha256};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The SHA-256 of something.
@@ -17,6 +17,8 @@ pub fn digest(bytes: impl AsRef<[u8]>) -> Digest {
 pub struct Inputs {
     /// What the manifest says that concerns its pictures, however it is written; flags included.
     pub manifest: Option<Digest>,
+    /// The manifests that it extends: what they say of the pictures is in `manifest`.
+    pub bases: BTreeSet<PathBuf>,
     /// The contents of all other files.
     pub files: BTreeMap<PathBuf, Digest>,
 }
@@ -30,6 +32,7 @@ impl Inputs {
     /// Takes over what was read elsewhere.
     pub fn extend(&mut self, other: Self) {
         self.manifest = self.manifest.or(other.manifest);
+        self.bases.extend(other.bases);
         self.files.extend(other.files);
     }
 

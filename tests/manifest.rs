@@ -1,10 +1,13 @@
 //! What manifests mean, and what is said about those that mean nothing.
 
+mod extends;
 mod faults;
 mod hostile;
 mod language;
+mod overrides;
 mod reference;
 mod schema;
+mod shorthand;
 mod units;
 mod values;
 

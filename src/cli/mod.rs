@@ -13,7 +13,7 @@ use crate::error::{Error, Fault, Place, Report};
 use crate::manifest::{self, Manifest};
 use crate::plan::Plan;
 use crate::render;
-use crate::scene::{Scene, compose};
+use crate::scene::{Scene, compose, compose_rest};
 use clap::{Args, Parser, Subcommand};
 use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER, SCHEMA};
 use std::io::{IsTerminal, Write};
@@ -188,14 +188,23 @@ fn colored() -> bool {
 /// What a manifest asks for and means, with warnings printed; or all faults. `film`: whether its film may be wanted.
 fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
-    let manifest = manifest::load_with(path, changes, &mut report);
-    let manifest = manifest.map(|written| Manifest { film: written.film.filter(|_| film), ..written });
-    let scene = manifest.as_ref().and_then(|manifest| compose(manifest, path, &mut report));
-    let plan = manifest.as_ref().zip(scene.as_ref());
-    let plan = plan.map(|(manifest, scene)| Plan::of(manifest, scene, path, &mut report));
+    let Some(draft) = manifest::load_draft(path, changes, &mut report) else {
+        warn(&report.warnings);
+        return report.finish(None);
+    };
+    if !draft.sound {
+        warn(&report.warnings);
+        // What else is wrong, in the files of what could be read.
+        let mut beside = Report::default();
+        compose(&draft.manifest, path, &mut beside);
+        report.faults.append(&mut beside.faults);
+        return report.finish(None);
+    }
+    let manifest = Manifest { film: draft.manifest.film.filter(|_| film), ..draft.manifest };
+    let scene = compose_rest(&manifest, path, &mut report);
+    let plan = Plan::of(&manifest, &scene, path, &mut report);
     warn(&report.warnings);
-    let all = manifest.zip(scene).zip(plan).map(|((manifest, scene), plan)| (manifest, scene, plan));
-    report.finish(all)
+    report.finish(Some((manifest, scene, plan)))
 }
 
 /// The change that `--size` asks for.
@@ -265,9 +274,11 @@ fn named_as_flags(mut error: Error, args: &RenderArgs) -> Error {
     ];
     if let Error::Input(faults) = &mut error {
         for (flag, _) in flags.into_iter().filter(|(_, given)| *given) {
-            let key = format!("--set picture.{flag}: ");
-            for fault in faults.iter_mut().filter(|fault| fault.what.starts_with(&key)) {
-                fault.what = fault.what.replacen(&key, &format!("--{flag}: "), 1);
+            let change = format!("--set picture.{flag}=");
+            let of_flag = |fault: &&mut Fault| matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change));
+            for fault in faults.iter_mut().filter(of_flag) {
+                fault.place = Place::Command;
+                fault.what = format!("--{flag}: {}", fault.what);
                 fault.hint = fault.hint.replacen(&format!("{flag}: "), &format!("--{flag} "), 1);
             }
         }

@@ -2,6 +2,7 @@
 
 use super::Spanned;
 use super::light::{Glow, GlowKind};
+use super::list::each;
 use super::material::{AnyMaterial, Material};
 use super::motion::Placement;
 use super::node::{Content, Node};
@@ -11,7 +12,7 @@ use super::record::{Entries, Field, Kind, List, Named, Presence, Record, Shape, 
 use super::solid::{self, Pose, Solid, SolidForm};
 use crate::error::Place;
 use glam::DVec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -78,9 +79,11 @@ impl Record for SourceKeys {
             doc: "A model file: `.glb`, `.gltf` or `.obj`.",
             example: "models/monkey.glb",
             presence: Presence::Alternative,
+            group: Self::TITLE,
             shape: FilePath::shape,
         };
-        std::iter::once(file).chain(SolidForm::fields()).collect()
+        let forms = SolidForm::fields().into_iter().map(|form| Field { group: Self::TITLE, ..form });
+        std::iter::once(file).chain(forms).collect()
     }
     fn take(entries: &Entries<'_>, reader: &mut Reader<'_>) -> Read<Self> {
         let given = entries.one_of(Self::TITLE, &Self::fields(), false, reader)?;
@@ -167,7 +170,23 @@ impl Kind for Assets {
             let solids = entries.iter().filter(|entry| solid::is_solid(&entry.value));
             reader.solids = solids.map(|entry| entry.key.clone()).collect();
         }
-        Named::<AssetKind>::read(node, reader)
+        Named::<RestAsset>::read(node, reader)
+    }
+}
+
+/// An asset that is remembered where others have faults.
+struct RestAsset;
+
+impl Kind for RestAsset {
+    type Value = AssetRef;
+    fn shape() -> Shape {
+        AssetKind::shape()
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<AssetRef> {
+        let asset = AssetKind::read(node, reader)?;
+        let name = reader.key().unwrap_or_default().to_owned();
+        reader.rest.assets.insert(name, asset.clone());
+        Ok(asset)
     }
 }
 
@@ -252,13 +271,16 @@ impl Kind for Bodies {
         let name = |item: &Node, key: &str| item.get(key).and_then(|node| node.text()).map(str::to_owned);
         let known_as = |item: &Node| name(item, "name").or_else(|| name(item, "asset")).unwrap_or_default();
         reader.bodies = items.iter().map(|item| known_as(item)).collect();
-        let mut own = BTreeSet::new();
+        let mut own = BTreeMap::new();
         let mut sound = Ok(());
         for item in items {
             let (Some(name), Some(node)) = (name(item, "name"), item.get("name")) else { continue };
-            if !own.insert(name.clone()) {
-                let what = format!("another body is named `{name}` already");
-                sound = Err(reader.fault(&node.place, what, format!("name: {name}_2")));
+            if let Some(first) = own.get(&name) {
+                let (what, hint) =
+                    (format!("another body is named `{name}` already"), format!("name: {name}_2"));
+                sound = Err(reader.fault_and(&node.place, (*first, "the other one"), what, hint));
+            } else {
+                own.insert(name, &node.place);
             }
         }
         for item in items {
@@ -269,7 +291,8 @@ impl Kind for Bodies {
                 sound = Err(reader.fault(&materials.place, what, "material: mirror"));
             }
         }
-        let bodies = List::<Body>::read(node, reader)?;
-        sound.map(|()| bodies)
+        let bodies = each::<Body>(items, reader);
+        reader.rest.bodies = bodies.iter().flatten().cloned().collect();
+        sound.and_then(|()| bodies.into_iter().collect())
     }
 }

@@ -9,7 +9,7 @@ use super::record::{Kind, Shape, record};
 use crate::error::Place;
 
 /// Most exposures.
-const MOST_EXPOSURES: u32 = 1_000_000;
+pub(super) const MOST_EXPOSURES: u32 = 1_000_000;
 
 words! {
     /// The clock by which exposures are timed.

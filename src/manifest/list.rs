@@ -3,8 +3,10 @@
 use super::node::{Content, Entry, Node};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape};
+use crate::error::nearest_name;
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
+use std::rc::Rc;
 
 /// A list, each item of one kind.
 pub(crate) struct List<K>(PhantomData<K>);
@@ -20,14 +22,44 @@ impl<K: Kind> Kind for List<K> {
             let what = format!("`{key}` is a list; this is {}", node.describe());
             return Err(reader.fault(&node.place, what, "begin each item with `- ` on a line of its own"));
         };
-        let mut values = Vec::with_capacity(items.len());
-        for (index, item) in items.iter().enumerate() {
-            values.push(reader.under(&index.to_string(), &item.place, |reader| {
-                reader.something(item)?;
-                K::read(item, reader)
-            }));
+        each::<K>(items, reader).into_iter().collect()
+    }
+}
+
+/// All items, the faulty ones too.
+pub(crate) fn each<K: Kind>(items: &[Rc<Node>], reader: &mut Reader<'_>) -> Vec<Read<K::Value>> {
+    let mut values = Vec::with_capacity(items.len());
+    for (index, item) in items.iter().enumerate() {
+        values.push(reader.under(&index.to_string(), &item.place, |reader| {
+            reader.something(item)?;
+            K::read(item, reader)
+        }));
+    }
+    values
+}
+
+/// Where in a list the item is that a key means: by its name or that of its asset, or by its number from 0; or why there
+/// is none, and what to type.
+pub(crate) fn item(items: &[Rc<Node>], key: &str) -> Result<usize, (String, String)> {
+    let text = |item: &'_ Rc<Node>, key: &str| item.get(key).and_then(|node| node.text()).map(str::to_owned);
+    let names: Vec<_> = items.iter().map(|item| text(item, "name").or_else(|| text(item, "asset"))).collect();
+    let named: Vec<usize> = (0..items.len()).filter(|at| names[*at].as_deref() == Some(key)).collect();
+    match (named.as_slice(), key.parse::<usize>()) {
+        (&[at], _) => Ok(at),
+        (&[first, second, ..], _) => {
+            let what = format!("{} items of this list are named `{key}`", named.len());
+            Err((what, format!("say which by its number: {first}, {second}")))
         }
-        values.into_iter().collect()
+        ([], Ok(at)) if at < items.len() => Ok(at),
+        ([], number) => {
+            let nearest = nearest_name(key, names.iter().flatten().map(String::as_str));
+            let hint = match (nearest, number) {
+                (Some(nearest), _) => format!("did you mean `{nearest}`?"),
+                _ if items.is_empty() => "the list is empty; `+` adds to it".to_owned(),
+                _ => format!("items are named, or numbered from 0 to {}; `+` adds to them", items.len() - 1),
+            };
+            Err((format!("`{key}` is no item of this list of {}", items.len()), hint))
+        }
     }
 }
 

@@ -16,6 +16,7 @@ mod body;
 mod canonical;
 mod course;
 mod exposures;
+mod extends;
 mod glass;
 mod light;
 mod list;
@@ -34,6 +35,7 @@ mod reader;
 mod record;
 mod reference;
 mod schema;
+mod shorthand;
 mod solid;
 mod spectrum;
 mod surroundings;
@@ -57,6 +59,7 @@ pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};
 pub use reference::reference;
 pub use schema::schema;
+pub use shorthand::{Flyby, Shorthand, Turntable};
 pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
@@ -66,17 +69,18 @@ pub(crate) use table::read_text;
 use crate::error::{Place, Report};
 use body::{Assets, Bodies};
 use exposures::ExposuresKind;
+use extends::Extends;
 use light::GlowKind;
 use material::Materials;
 use motion::LightSpeed;
 use node::Source;
 use observer::ObserverKind;
 use output::OutputKind;
-use reader::Reader;
+use reader::{Read, Reader};
 use record::{Kind, List, record};
 use spectrum::Spectra;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use surroundings::SurroundingsKind;
 
@@ -92,6 +96,11 @@ pub struct Spanned<T> {
 record! {
     /// A manifest.
     pub Manifest, "a manifest" {
+        @include shorthand: Shorthand, "Observer and exposures in short; what it stands for is in those.";
+        /// Manifests that this one begins from, a path or a list of them: what is said here (and further on in the list) takes the
+        /// place of what they say. Maps are merged key by key, `key: ~` takes a key away, and `bodies` and `lights` may be
+        /// maps that change items by name or number (`+` adds some). Paths in them are relative to their own folders.
+        extends: Vec<PathBuf> = Extends, default(Vec::new()), "studio.yaml";
         /// The speed of light in metres per second: what the seconds of this manifest are.
         light_speed: f64 = LightSpeed, default(LIGHT_SPEED), "1 m/s";
         /// Spectra by name.
@@ -108,8 +117,8 @@ record! {
         ambient: Option<Glow> = GlowKind, optional, "{ luminance: 20 cd/m2 }";
         /// What is seen behind everything, infinitely far away; a list of them if they are at rest in several frames.
         surroundings: Vec<Surroundings> = SurroundingsKind, default(Vec::new()), "{ stars: { seed: 7, count: 5000 } }";
-        /// Who looks.
-        observer: Observer = ObserverKind, required, "{ at: 0 1.2 5 m }";
+        /// Who looks. It has to be there, or `turntable` or `flyby`.
+        observer: Observer = ObserverKind, empty, "{ at: 0 1.2 5 m }";
         /// When pictures are taken: one, at 0 s, unless said.
         exposures: Exposures = ExposuresKind, empty, "{ from: -4 s, to: 9 s, count: 96 }";
         /// What the pictures are like.
@@ -135,8 +144,13 @@ pub fn load(path: &Path, report: &mut Report) -> Option<Manifest> {
 
 /// Reads the manifest in a file, some of its values given on the command line; see [`parse_with`].
 pub fn load_with(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Manifest> {
+    load_draft(path, overrides, report).and_then(Draft::whole)
+}
+
+/// Reads what can be read of the manifest in a file; see [`parse_with`].
+pub fn load_draft(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Draft> {
     match read_text(path) {
-        Ok(text) => parse_with(path, &text, overrides, report),
+        Ok(text) => parse_draft(path, &text, overrides, report),
         Err(why) => {
             report.fault(Place::file(path), why, "name a manifest, a YAML text file");
             None
@@ -159,42 +173,90 @@ pub fn parse_with(
     overrides: &[(String, String)],
     report: &mut Report,
 ) -> Option<Manifest> {
+    parse_draft(path, text, overrides, report).and_then(Draft::whole)
+}
+
+/// What could be read of a manifest.
+#[derive(Debug, Clone)]
+pub struct Draft {
+    /// All of it, or, where it has faults, the assets, bodies and surroundings that have none, beside what is usual: there may
+    /// be more faults in the files that these name.
+    pub manifest: Manifest,
+    /// Whether it has no faults.
+    pub sound: bool,
+}
+
+impl Draft {
+    /// The manifest, if it has no faults.
+    pub fn whole(self) -> Option<Manifest> {
+        Some(self.manifest).filter(|_| self.sound)
+    }
+}
+
+fn parse_draft(
+    path: &Path,
+    text: &str,
+    overrides: &[(String, String)],
+    report: &mut Report,
+) -> Option<Draft> {
     let mut found = Report::default();
-    let source = Source::File { path: path.to_owned(), text: text.into() };
-    let manifest = yaml::parse(&source, text, &mut found)
-        .and_then(|root| overrides::apply(root, overrides, &mut found))
-        .and_then(|root| {
-            report.inputs.manifest = Some(canonical::digest(&root));
-            read(path, &root, &mut found)
-        });
+    let mut files = vec![path.to_owned()];
+    let root = yaml::parse(&Source::file(path, text), text, &mut found)
+        .and_then(|root| extends::resolve(root, path, &mut files, &mut found));
+    report.inputs.bases.extend(files.iter().skip(1).cloned());
+    let draft = root.and_then(|root| overrides::apply(root, overrides, &mut found)).and_then(|root| {
+        report.inputs.manifest = Some(canonical::digest(&root));
+        draft(path, &root, &mut found)
+    });
     let sound = found.faults.is_empty();
-    found.faults.sort_by_key(|fault| place_order(path, &fault.place));
+    found.faults.sort_by_key(|fault| extends::order(&files, &fault.place));
     report.faults.append(&mut found.faults);
     report.warnings.append(&mut found.warnings);
     report.inputs.extend(found.inputs);
-    manifest.filter(|_| sound)
+    files.remove(0);
+    draft.map(|draft| Draft {
+        manifest: Manifest { extends: files, ..draft.manifest },
+        sound: draft.sound && sound,
+    })
 }
 
-fn read(path: &Path, root: &node::Node, report: &mut Report) -> Option<Manifest> {
+fn draft(path: &Path, root: &node::Node, report: &mut Report) -> Option<Draft> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut reader = Reader::new(folder, report);
-    let mut manifest = <Manifest as Kind>::read(root, &mut reader).ok()?;
+    if let Ok(manifest) = read(root, &mut reader) {
+        extends::warn_of_output(root, path, report);
+        return Some(Draft { manifest, sound: true });
+    }
+    let Reader { rest, light_speed, .. } = reader;
+    let mut manifest = yaml::parse(&Source::file(path, USUAL), USUAL, report)
+        .and_then(|usual| <Manifest as Kind>::read(&usual, &mut Reader::new(folder, report)).ok())?;
+    (manifest.assets, manifest.bodies, manifest.surroundings) = (rest.assets, rest.bodies, rest.surroundings);
+    manifest.light_speed = light_speed;
+    Some(Draft { manifest, sound: false })
+}
+
+/// What has to be said.
+const USUAL: &str = "{ observer: {}, output: out }";
+
+fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
+    let looking = if extends::nobody_looks(root) {
+        let what = "a manifest needs `observer`, `turntable` or `flyby`";
+        Err(reader.fault(&root.place, what, "observer: { at: 0 1.2 5 m }"))
+    } else {
+        Ok(())
+    };
+    let apart = shorthand::check(root, reader);
+    let mut manifest = <Manifest as Kind>::read(root, reader)?;
+    looking.and(apart)?;
+    shorthand::expand(&mut manifest, root, reader)?;
     let used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
     for (name, asset) in &manifest.assets {
         if !used.contains(name) {
-            report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
+            reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
     }
     if manifest.film.is_none() && manifest.exposures.count > 1 {
         manifest.film = Some(Film::usual());
     }
-    Some(manifest)
-}
-
-/// Faults of the manifest in the order of its text, then all others.
-fn place_order(path: &Path, place: &Place) -> usize {
-    match place {
-        Place::Text { path: of, span, .. } if of == path => span.start,
-        _ => usize::MAX,
-    }
+    Ok(manifest)
 }

@@ -2,7 +2,7 @@
 
 use crate::error::Place;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -51,6 +51,11 @@ impl Node {
         matches!(&self.content, Content::Scalar { text, quoted: false } if matches!(text.as_str(), "" | "~" | "null"))
     }
 
+    /// Whether it is written that there is nothing: `~` or `null`.
+    pub(crate) fn is_removal(&self) -> bool {
+        self.is_nothing() && self.text() != Some("")
+    }
+
     /// The text, if it is text.
     pub(crate) fn text(&self) -> Option<&str> {
         match &self.content {
@@ -87,16 +92,22 @@ fn measure<'a>(children: impl Iterator<Item = &'a Rc<Node>>) -> (usize, usize) {
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
     /// A file.
-    File { path: PathBuf, text: Arc<str> },
-    /// An argument of the command.
-    Command,
+    File { path: Arc<Path>, text: Arc<str> },
+    /// An argument of the command as it was typed, from this byte on.
+    Argument { text: Arc<str>, from: usize },
 }
 
 impl Source {
     pub(super) fn place(&self, span: Range<usize>) -> Place {
         match self {
             Self::File { path, text } => Place::Text { path: path.clone(), text: text.clone(), span },
-            Self::Command => Place::Command,
+            Self::Argument { text, from } => {
+                Place::Argument { text: text.clone(), span: span.start + from..span.end + from }
+            }
         }
+    }
+
+    pub(super) fn file(path: &Path, text: &str) -> Self {
+        Self::File { path: path.into(), text: text.into() }
     }
 }

@@ -1,60 +1,145 @@
 //! Values given on the command line, put into the tree of a manifest before it is read.
 
+use super::extends::{inside, item_shape};
+use super::list::item;
 use super::node::{Content, Entry, Node, Source};
+use super::record::Shape;
 use super::yaml;
 use crate::error::{Place, Report};
 use std::rc::Rc;
+use std::sync::Arc;
 
-/// The tree with each override at its path of keys and indices; maps that are missing on the way are made.
+const EXAMPLES: &str = "--set observer.velocity=\"0 0 0.5 c\", --set bodies.monkey.scale=2";
+
+/// The tree with each override at its path of keys; maps that are missing on the way are made. Items of lists go by name or
+/// number, `+` adds one; `~` takes away what is at the path.
 pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut Report) -> Option<Rc<Node>> {
     let known = report.faults.len();
     let mut root = root;
+    let shape = super::shape();
     for (path, text) in overrides {
-        let before = report.faults.len();
-        if let Some(value) = yaml::parse(&Source::Command, text, report) {
-            let keys: Vec<_> = path.split('.').collect();
-            if let Err(why) = set(Rc::make_mut(&mut root), &keys, value) {
-                report.fault(
-                    Place::Command,
-                    why,
-                    "--set observer.velocity=\"0 0 0.5 c\", --set bodies.0.scale=2",
-                );
-            }
+        let shown: Arc<str> = format!("--set {path}={text}").into();
+        let argument = Argument { shown: shown.clone(), keys: "--set ".len(), length: path.len() };
+        if text.trim().is_empty() {
+            let hint = format!("--set {path}=.., or --set {path}=~ to take it away");
+            report.fault(argument.place(), format!("`{path}` has no value"), hint);
+            continue;
         }
-        for fault in &mut report.faults[before..] {
-            fault.what = format!("--set {path}: {}", fault.what);
+        let from = shown.len() - text.len();
+        let Some(value) = parsed(&Source::Argument { text: shown, from }, text, report) else { continue };
+        let keys: Vec<_> = path.split('.').collect();
+        if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value) {
+            report.fault(argument.place(), what, hint);
         }
     }
     (report.faults.len() == known).then_some(root)
 }
 
-fn set(node: &mut Node, keys: &[&str], value: Rc<Node>) -> Result<(), String> {
-    let Some((key, rest)) = keys.split_first() else {
-        *node = Rc::unwrap_or_clone(value);
-        return Ok(());
-    };
-    if key.is_empty() {
-        return Err("the path has an empty key".to_owned());
+/// The value, `~` too.
+fn parsed(source: &Source, text: &str, report: &mut Report) -> Option<Rc<Node>> {
+    let text_alone = text.trim();
+    if matches!(text_alone, "~" | "null") {
+        let content = Content::Scalar { text: text_alone.to_owned(), quoted: false };
+        return Some(Node::new(source.place(0..text.len()), content).into());
     }
-    if node.is_nothing() {
-        node.content = Content::Map(Vec::new());
+    yaml::parse(source, text, report)
+}
+
+/// An argument as typed, and where in it the path of keys is.
+struct Argument {
+    shown: Arc<str>,
+    keys: usize,
+    length: usize,
+}
+
+/// What is wrong, and what to type.
+type Wrong = (String, String);
+
+impl Argument {
+    fn place(&self) -> Place {
+        Place::Argument { text: self.shown.clone(), span: self.keys..self.keys + self.length }
     }
-    match &mut node.content {
-        Content::Scalar { .. } => Err(format!("there is text here, which has no `{key}`")),
-        Content::List(items) => {
-            let count = items.len();
-            let item = key.parse::<usize>().ok().and_then(|index| items.get_mut(index));
-            let item = item.ok_or_else(|| format!("`{key}` is not an index of this list of {count}"))?;
-            set(Rc::make_mut(item), rest, value)
+
+    fn set(
+        &self,
+        node: &mut Node,
+        shape: Option<&Shape>,
+        keys: &[&str],
+        value: Rc<Node>,
+    ) -> Result<(), Wrong> {
+        let Some((key, rest)) = keys.split_first() else {
+            *node = Rc::unwrap_or_clone(value);
+            return Ok(());
+        };
+        if key.is_empty() {
+            return Err(("the path has an empty key".to_owned(), EXAMPLES.to_owned()));
         }
-        Content::Map(entries) => {
-            if let Some(entry) = entries.iter_mut().find(|entry| entry.key == *key) {
-                return set(Rc::make_mut(&mut entry.value), rest, value);
+        if node.is_nothing() {
+            node.content = Content::Map(Vec::new());
+        }
+        let removal = rest.is_empty() && value.is_removal();
+        match &mut node.content {
+            Content::Scalar { text, .. } => {
+                let what = format!("there is the text `{text}` here, which has no `{key}`");
+                Err((what, EXAMPLES.to_owned()))
             }
-            let mut made = Node::new(Place::Command, Content::Map(Vec::new()));
-            set(&mut made, rest, value)?;
-            entries.push(Entry { key: (*key).to_owned(), key_place: Place::Command, value: made.into() });
-            Ok(())
+            Content::List(items) if *key == "+" => {
+                items.push(self.made(shape.and_then(item_shape).as_ref(), rest, value)?);
+                Ok(())
+            }
+            Content::List(items) => {
+                let at = item(items, key)?;
+                if removal {
+                    items.remove(at);
+                    return Ok(());
+                }
+                self.set(Rc::make_mut(&mut items[at]), shape.and_then(item_shape).as_ref(), rest, value)
+            }
+            Content::Map(entries) => {
+                let (of, others) = shape.map(|shape| inside(shape, key)).unwrap_or_default();
+                if removal {
+                    let before = entries.len();
+                    entries.retain(|entry| entry.key != *key);
+                    return if entries.len() < before { Ok(()) } else { Err(nothing(entries, key)) };
+                }
+                entries.retain(|entry| !others.contains(&entry.key.as_str()));
+                if let Some(entry) = entries.iter_mut().find(|entry| entry.key == *key) {
+                    return self.set(Rc::make_mut(&mut entry.value), of.as_ref(), rest, value);
+                }
+                let value = if rest.first() == Some(&"+") {
+                    let list = Node::new(self.place(), Content::List(Vec::new()));
+                    self.filled(list, of.as_ref(), rest, value)?
+                } else {
+                    self.made(of.as_ref(), rest, value)?
+                };
+                entries.push(Entry { key: (*key).to_owned(), key_place: self.place(), value });
+                Ok(())
+            }
         }
     }
+
+    fn made(&self, shape: Option<&Shape>, keys: &[&str], value: Rc<Node>) -> Result<Rc<Node>, Wrong> {
+        self.filled(Node::new(self.place(), Content::Map(Vec::new())), shape, keys, value)
+    }
+
+    fn filled(
+        &self,
+        mut node: Node,
+        shape: Option<&Shape>,
+        keys: &[&str],
+        value: Rc<Node>,
+    ) -> Result<Rc<Node>, Wrong> {
+        self.set(&mut node, shape, keys, value)?;
+        Ok(node.into())
+    }
+}
+
+/// There is nothing to be taken away.
+fn nothing(entries: &[Entry], key: &str) -> Wrong {
+    let keys = entries.iter().map(|entry| entry.key.as_str());
+    let hint = match crate::error::nearest_name(key, keys.clone()) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => format!("there are {}", keys.collect::<Vec<_>>().join(", ")),
+    };
+    (format!("there is no `{key}` to be taken away"), hint)
 }

@@ -193,7 +193,11 @@ impl Kind for FilePath {
             let hint = reader.typed("folder/name");
             return Err(reader.fault(&node.place, "this is not a path", hint));
         }
-        Ok(tidy(&reader.folder.join(text)))
+        let folder = match &node.place {
+            crate::error::Place::Text { path, .. } => path.parent().unwrap_or(Path::new("")),
+            _ => reader.folder,
+        };
+        Ok(tidy(&folder.join(text)))
     }
 }
 
@@ -210,21 +214,24 @@ impl Kind for ThereFile {
         if path.is_file() {
             return Ok(path);
         }
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().take(MOST_NEIGHBOURS);
-        let there: BTreeSet<_> =
-            entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        let hint = match nearest_name(&name, there.iter().map(String::as_str)).filter(|near| *near != name) {
-            Some(nearest) => format!("did you mean `{nearest}`?"),
-            None => "paths are relative to the manifest's folder".to_owned(),
-        };
-        Err(reader.fault(&node.place, format!("there is no file `{}`", path.display()), hint))
+        Err(reader.fault(&node.place, format!("there is no file `{}`", path.display()), neighbour(&path)))
+    }
+}
+
+/// What to type instead of the path of a file that is not there: the nearest name in its folder.
+pub(crate) fn neighbour(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().take(MOST_NEIGHBOURS);
+    let there: BTreeSet<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    match nearest_name(&name, there.iter().map(String::as_str)).filter(|near| *near != name) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => "paths are relative to the manifest's folder".to_owned(),
     }
 }
 
 /// The path without `folder/..`, as long as nothing of it is a link that would lead elsewhere.
-fn tidy(path: &Path) -> PathBuf {
+pub(crate) fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for part in path.components() {
         let up = part == Component::ParentDir;

@@ -272,6 +272,8 @@ macro_rules! scalars {
 scalars! {
     /// Metres, > 0.
     Length: "a length", [Length], "m", |x| x > 0.0, "2 m (above zero)";
+    /// Metres, either way.
+    Offset: "a length", [Length], "m";
     /// Metres of light travel.
     Instant: "a time", [Duration, Length], "s";
     /// Metres of light travel, > 0.

@@ -1,11 +1,13 @@
 //! What is at hand while a manifest is read: the report, the key being read, and what names stand for.
 
+use super::body::{AssetRef, Body};
 use super::material::Material;
 use super::names::Names;
 use super::node::Node;
 use super::spectrum::Spectrum;
+use super::surroundings::Surroundings;
 use crate::error::{Place, Report, nearest_name};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Keys within one another, names followed included; deeper means a mistake or an attack.
@@ -26,6 +28,14 @@ pub(crate) struct Reported;
 /// A value, or none because of faults that are in the report.
 pub(crate) type Read<T> = Result<T, Reported>;
 
+/// What has no faults of its own, and may have some in files.
+#[derive(Default)]
+pub(crate) struct Rest {
+    pub(crate) assets: BTreeMap<String, AssetRef>,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) surroundings: Vec<Surroundings>,
+}
+
 /// The state of reading.
 pub(crate) struct Reader<'a> {
     pub(crate) report: &'a mut Report,
@@ -43,6 +53,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) ring: bool,
     pub(crate) spectra: Names<Spectrum>,
     pub(crate) materials: Names<Material>,
+    /// What could be read of things that stand in files, whatever else has faults.
+    pub(crate) rest: Rest,
     keys: Vec<String>,
     /// What stands before and after the part of a text that is being read.
     around: (String, String),
@@ -60,12 +72,13 @@ impl<'a> Reader<'a> {
             ring: false,
             spectra: Names::default(),
             materials: Names::default(),
+            rest: Rest::default(),
             keys: Vec::new(),
             around: (String::new(), String::new()),
         }
     }
 
-    /// Reports a fault. On the command line the path of keys says where it is.
+    /// Reports a fault.
     pub(crate) fn fault(
         &mut self,
         place: &Place,
@@ -75,12 +88,23 @@ impl<'a> Reader<'a> {
         if self.report.faults.len() >= MOST_FAULTS {
             return Reported;
         }
-        let what = what.into();
-        let what = match place {
-            Place::Command if !self.keys.is_empty() => format!("--set {}: {what}", self.keys.join(".")),
-            _ => what,
-        };
-        self.report.fault(place.clone(), shortened(what), shortened(hint.into()));
+        self.report.fault(place.clone(), shortened(what.into()), shortened(hint.into()));
+        Reported
+    }
+
+    /// Reports a fault that another place has to do with.
+    pub(crate) fn fault_and(
+        &mut self,
+        place: &Place,
+        (other, there): (&Place, &str),
+        what: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Reported {
+        let known = self.report.faults.len();
+        self.fault(place, what, hint);
+        if let Some(fault) = self.report.faults.get_mut(known) {
+            fault.also.push((other.clone(), there.to_owned()));
+        }
         Reported
     }
 

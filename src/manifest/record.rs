@@ -70,6 +70,8 @@ pub struct Field {
     pub example: &'static str,
     /// Whether it has to be there.
     pub presence: Presence,
+    /// The choice of which it is an alternative; empty if it is none.
+    pub group: &'static str,
     /// What its value looks like.
     pub shape: fn() -> Shape,
 }
@@ -222,7 +224,9 @@ impl<'n> Entries<'n> {
                 let later = entries.into_iter().flatten().max().and_then(|at| self.all.get(at));
                 let place = later.map_or(&self.node.place, |entry| &entry.key_place);
                 let what = format!("{title} has both `{}` and `{}`", first.key, second.key);
-                Err(reader.fault(place, what, format!("keep one of {keys}")))
+                let earlier = entries.into_iter().flatten().min().and_then(|at| self.all.get(at));
+                let earlier = earlier.map_or(&self.node.place, |entry| &entry.key_place);
+                Err(reader.fault_and(place, (earlier, "the other one"), what, format!("keep one of {keys}")))
             }
         }
     }
@@ -274,6 +278,7 @@ macro_rules! record {
                     doc: concat!($($fdoc, "\n"),*),
                     example: $example,
                     presence: record!(@presence $mode),
+                    group: "",
                     shape: <$kind as $crate::manifest::record::Kind>::shape,
                 } ),*];
                 $( fields.extend(<$inc_ty as $crate::manifest::record::Record>::fields()); )*
@@ -330,6 +335,7 @@ macro_rules! choice {
                     doc: concat!($($fdoc, "\n"),*),
                     example: $example,
                     presence: $crate::manifest::record::Presence::Alternative,
+                    group: $title,
                     shape: <$kind as $crate::manifest::record::Kind>::shape,
                 } ),*]
             }

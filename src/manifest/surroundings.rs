@@ -63,6 +63,7 @@ impl Kind for One {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Surroundings> {
         let read = <Surroundings as Kind>::read(node, reader)?;
         if read.uniform.is_some() || read.picture.is_some() || read.stars.is_some() {
+            reader.rest.surroundings.push(read.clone());
             return Ok(read);
         }
         let what = "surroundings need uniform, picture or stars, or several of these";

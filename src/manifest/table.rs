@@ -94,6 +94,7 @@ fn csv(node: &Node, reader: &mut Reader<'_>) -> Read<Vec<Row>> {
     };
     reader.report.inputs.add(&path, text.as_bytes());
     let (mut rows, mut sound) = (Vec::new(), true);
+    let path: Arc<Path> = path.into();
     for (from, kept) in table_lines(&text) {
         let place = || Place::Text { path: path.clone(), text: text.clone(), span: from..from + kept.len() };
         let numbers: Option<Vec<f64>> = kept.split(',').map(|cell| cell.trim().parse().ok()).collect();

@@ -18,7 +18,7 @@ const DEEPEST: usize = 64;
 /// Bytes of one text.
 const LONGEST_TEXT: usize = 10_000;
 /// Values in all (keys are values too), each alias counted as what it stands for: the second reader writes them out.
-const MOST_VALUES: usize = 250_000;
+pub(super) const MOST_VALUES: usize = 250_000;
 
 /// The tree of a YAML text, or none with the reasons reported.
 pub(crate) fn parse(source: &Source, text: &str, report: &mut Report) -> Option<Rc<Node>> {
@@ -62,6 +62,16 @@ enum Open {
 struct Key {
     text: Option<String>,
     span: Range<usize>,
+}
+
+/// Where a key of the innermost map is written first.
+fn first_key(open: &[Open], key: &str) -> Option<Place> {
+    match open.last() {
+        Some(Open::Map { entries, .. }) => {
+            entries.iter().find(|entry| entry.key == key).map(|entry| entry.key_place.clone())
+        }
+        _ => None,
+    }
 }
 
 /// Reading cannot go on; the reason is reported.
@@ -231,7 +241,13 @@ impl<'a> Builder<'a> {
                 };
                 if repeated {
                     let what = format!("`{text}` is written twice");
+                    let known = self.report.faults.len();
                     self.fault(span.clone(), &what, "remove one of the two, or make a list");
+                    if let Some(fault) = self.report.faults.get_mut(known)
+                        && let Some(first) = first_key(&self.open, text)
+                    {
+                        fault.also.push((first, "the first".to_owned()));
+                    }
                 }
                 (!repeated).then(|| text.clone())
             }

@@ -22,6 +22,12 @@ const SHAPE_REFLECTANCE: f64 = 0.8;
 
 /// The scene that a manifest means. Reads the model files; all faults and warnings go to the report.
 pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<Scene> {
+    let scene = compose_rest(manifest, path, report);
+    report.faults.is_empty().then_some(scene)
+}
+
+/// What can be had of the scene that a manifest means, for what else is wrong with it.
+pub fn compose_rest(manifest: &Manifest, path: &Path, report: &mut Report) -> Scene {
     let models = Models::load(manifest, path, report);
     let chosen = models.chosen(manifest, report);
     let ambient = manifest.ambient.as_ref().and_then(|glow| light::radiance(glow, report));
@@ -59,26 +65,20 @@ pub fn compose(manifest: &Manifest, path: &Path, report: &mut Report) -> Option<
             "lights: [{ sun: { illuminance: 300 lx } }]",
         );
     }
-    if report.faults.is_empty() {
-        let world = gathered.world.build();
-        let depth = manifest.picture.depth;
-        let scene = Scene {
-            world,
-            surfaces: gathered.surfaces,
-            media: gathered.workshop.media,
-            lamps: gathered.lamps,
-            ambient: gathered.ambient,
-            surroundings,
-            lines: Vec::new(),
-            effects,
-            depth,
-            faintest: manifest.picture.faintest,
-            observer,
-        };
-        Some(scene.with_lines())
-    } else {
-        None
-    }
+    let scene = Scene {
+        world: gathered.world.build(),
+        surfaces: gathered.surfaces,
+        media: gathered.workshop.media,
+        lamps: gathered.lamps,
+        ambient: gathered.ambient,
+        surroundings,
+        lines: Vec::new(),
+        effects,
+        depth: manifest.picture.depth,
+        faintest: manifest.picture.faintest,
+        observer,
+    };
+    scene.with_lines()
 }
 
 pub(crate) fn placement(written: &manifest::Placement) -> Placement {

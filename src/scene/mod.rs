@@ -7,8 +7,8 @@ mod models;
 mod sky;
 mod solids;
 
-pub use compose::compose;
 pub(crate) use compose::placement;
+pub use compose::{compose, compose_rest};
 pub use materials::UNLIT_LUMINANCE;
 
 use crate::lamp::Lamp;

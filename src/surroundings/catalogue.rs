@@ -42,7 +42,7 @@ pub fn parse_catalogue(path: &Path, text: &Arc<str>, report: &mut Report) -> Opt
         }
         let place = |at: usize, length: usize| {
             let span = from + at..from + at + length;
-            Place::Text { path: path.to_owned(), text: text.clone(), span }
+            Place::Text { path: path.into(), text: text.clone(), span }
         };
         stars.extend(row(kept, place, report));
         if report.faults.len() - already >= MOST_FAULTS {

@@ -111,21 +111,36 @@ fn faults_on_the_command_line_name_the_path_of_keys() {
         let mut report = Report::default();
         let overrides = [(key.to_owned(), value.to_owned())];
         assert!(manifest::parse_with(Path::new("m.yaml"), text, &overrides, &mut report).is_none());
-        assert!(report.faults.iter().all(|fault| fault.place == Place::Command));
-        report.faults.iter().map(|fault| fault.what.clone()).collect::<Vec<_>>().join("; ")
+        let marked = |fault: &Fault| match &fault.place {
+            Place::Argument { text, span } => format!("{}[{}]", &text[..span.start], &text[span.clone()]),
+            place => panic!("{place:?}"),
+        };
+        let said = |fault: &Fault| format!("{} {}", marked(fault), fault.what);
+        report.faults.iter().map(said).collect::<Vec<_>>().join("; ")
     };
     assert_eq!(
         said("observer.velocity", "0 0 2 c"),
-        "--set observer.velocity: `0 0 2 c` is 2 c, not below the speed of light"
+        "--set observer.velocity=[0 0 2 c] `0 0 2 c` is 2 c, not below the speed of light"
     );
-    assert_eq!(said("observer.velocty", "0 0 0 c"), "--set observer: `velocty` is not a key of the observer");
-    assert_eq!(said("output.exr", "on"), "--set output.exr: there is text here, which has no `exr`");
-    assert_eq!(said("observer..at", "1"), "--set observer..at: the path has an empty key");
+    assert_eq!(
+        said("observer.velocty", "0 0 0 c"),
+        "--set [observer.velocty] `velocty` is not a key of the observer"
+    );
+    assert_eq!(
+        said("output.exr", "on"),
+        "--set [output.exr] there is the text `out` here, which has no `exr`"
+    );
+    assert_eq!(said("observer..at", "1"), "--set [observer..at] the path has an empty key");
     assert_eq!(
         said("observer.at", "{"),
-        "--set observer.at: this is not YAML: while parsing a node, did not find expected node content"
+        "--set observer.at={[] this is not YAML: while parsing a node, did not find expected node content"
     );
-    assert_eq!(said("observer.at", ""), "--set observer.at: the file is empty");
+    assert_eq!(said("observer.at", ""), "--set [observer.at] `observer.at` has no value");
+    assert_eq!(
+        said("observer", "{ up: 0 1, view: x }"),
+        "--set observer={ up: [0 1] a direction is 3 numbers; here are 2; --set observer={ up: 0 1, [view] `view` is not a key \
+         of the observer"
+    );
 }
 
 #[test]
@@ -211,9 +226,53 @@ fn shown_faults_are_no_more_than_can_be_read() {
 }
 
 #[test]
-fn shown_faults_in_endless_lines_leave_the_line_out() {
-    let text = format!("observer: {{ {} at: 3 }}\noutput: out\n", " ".repeat(5000));
-    let shown = render(&faults(&text).faults, false, false);
-    assert!(shown.contains("m.yaml:1"), "{shown}");
-    assert!(shown.len() < 1000);
+fn shown_faults_in_endless_lines_show_what_is_around_them() {
+    let text =
+        format!("observer: {{ {}up: 0 1 0, at: 3, {}}}\noutput: out\n", "é".repeat(5000), " ".repeat(5000));
+    let text = text.replace(&"é".repeat(5000), &format!("\"{}\": 1, ", "é".repeat(4000)));
+    let report = faults(&text);
+    let shown = render(&report.faults, false, false);
+    assert!(shown.contains("m.yaml:1:4035"), "{shown}");
+    let (line, marks) = {
+        let at = shown.lines().position(|line| line.contains("at: 3")).unwrap();
+        (shown.lines().nth(at).unwrap(), shown.lines().nth(at + 1).unwrap())
+    };
+    let column = |line: &str, of: &str| line[..line.find(of).unwrap()].chars().count();
+    assert_eq!(column(line, "3,"), column(marks, "^"), "{shown}");
+    assert!(line.contains('…') && line.chars().count() < 200, "{shown}");
+}
+
+#[test]
+fn shown_faults_do_not_count_a_byte_order_mark() {
+    let report = faults("\u{feff}observer: { at: 3 }\noutput: out\n");
+    assert_eq!(report.faults[0].place.line_column(), Some((1, 17)));
+    let shown = render(&report.faults, false, false);
+    assert!(shown.contains("m.yaml:1:17\n") && !shown.contains('\u{feff}'), "{shown}");
+    assert!(shown.contains("1 | observer: { at: 3 }\n  |                 ^\n"), "{shown}");
+}
+
+#[test]
+fn shown_faults_on_the_command_line_have_their_argument_and_a_mark() {
+    let mut report = Report::default();
+    let overrides = [("observer.at".to_owned(), "0 1 5".to_owned())];
+    manifest::parse_with(Path::new("m.yaml"), "observer: {}\noutput: out\n", &overrides, &mut report);
+    let expected = "\
+error: a place needs a unit
+--> the command line
+  |
+  | --set observer.at=0 1 5
+  |                   ^^^^^
+  |
+  = help: at: 0 1 5 m
+
+";
+    assert_eq!(render(&report.faults, false, false), expected);
+}
+
+#[test]
+fn shown_faults_have_the_other_place_that_has_to_do_with_them() {
+    let report = faults("observer: { at: 0 0 0 m,\n  at: 0 0 1 m }\noutput: out\n");
+    let shown = render(&report.faults, false, false);
+    assert!(shown.contains("2 |   at: 0 0 1 m }\n  |   ^^\n"), "{shown}");
+    assert!(shown.contains("1 | observer: { at: 0 0 0 m,\n  |             -- the first\n"), "{shown}");
 }

@@ -1,0 +1,281 @@
+//! Manifests that begin from others.
+
+use std::path::{Path, PathBuf};
+use terrell::error::{Place, Report};
+use terrell::manifest::{self, Manifest};
+
+/// A folder with some files.
+struct Files(tempfile::TempDir);
+
+impl Files {
+    fn of(files: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            let path = folder.path().join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn read(&self, name: &str) -> (Option<Manifest>, Report) {
+        let mut report = Report::default();
+        let manifest = manifest::load(&self.path(name), &mut report);
+        (manifest, report)
+    }
+
+    fn sound(&self, name: &str) -> (Manifest, Report) {
+        let (manifest, report) = self.read(name);
+        assert_eq!(report.faults, []);
+        (manifest.unwrap(), report)
+    }
+
+    /// The faults: file, line, what.
+    fn faults(&self, name: &str) -> Vec<(String, usize, String)> {
+        let (manifest, report) = self.read(name);
+        assert!(manifest.is_none() && report.faults.iter().all(|fault| !fault.hint.is_empty()));
+        let told = report.faults.into_iter().map(|fault| {
+            let Place::Text { path, .. } = &fault.place else { panic!("{fault:?}") };
+            let file = path.file_name().unwrap().to_string_lossy().into_owned();
+            (file, fault.place.line_column().unwrap().0, fault.what)
+        });
+        told.collect()
+    }
+}
+
+/// What a manifest says, without where.
+fn meaning(manifest: &Manifest) -> String {
+    let manifest = Manifest { extends: Vec::new(), ..manifest.clone() };
+    let mut text = format!("{manifest:?}");
+    while let Some(from) = text.find("Text { path: ") {
+        let span = from + text[from..].find(", span: ").unwrap();
+        let to = span + text[span..].find('}').unwrap();
+        text.replace_range(from..=to, "here");
+    }
+    text
+}
+
+const BASE: &str = "\
+light_speed: 1 m/s
+spectra: { sodium: { line: 589 nm } }
+materials: { red: { diffuse: { rgb: 1 0 0 } }, blue: { diffuse: { rgb: 0 0 1 } } }
+assets: { ball: { sphere: { radius: 1 m } }, cube: { box: { size: 1 m } }, floor: plane }
+bodies:
+  - { asset: ball, at: 0 1 0 m, velocity: 0.5 0 0 c }
+  - { asset: cube, name: left, at: -3 1 0 m }
+  - { asset: cube, name: right, at: 3 1 0 m }
+lights: [{ lamp: { intensity: 300 cd } }, { sun: { illuminance: 10 lx, direction: 0 -1 0 } }]
+observer: { orbit: { radius: 4 m, speed: 0.5 c }, look_at: ball, field_of_view: 40 deg }
+exposures: { from: 0 s, to: 4 s, count: 3 }
+film: { rate: 12 }
+output: out/base
+";
+
+#[test]
+fn a_manifest_that_only_extends_another_says_the_same() {
+    let files = Files::of(&[
+        ("base.yaml", BASE),
+        ("m.yaml", "extends: base.yaml\n"),
+        ("n.yaml", "extends: [m.yaml]\n"),
+    ]);
+    let (base, of_base) = files.sound("base.yaml");
+    for name in ["m.yaml", "n.yaml"] {
+        let (manifest, report) = files.sound(name);
+        assert_eq!(meaning(&manifest), meaning(&base));
+        assert_eq!(report.inputs.manifest, of_base.inputs.manifest);
+    }
+}
+
+#[test]
+fn what_is_said_is_what_the_merged_text_says() {
+    let change = "\
+extends: base.yaml
+light_speed: ~
+materials: { red: { mirror: 0.9 }, green: { diffuse: { rgb: 0 1 0 } }, blue: ~ }
+bodies:
+  ball: { velocity: 0 0 0.9 c, material: red }
+  left: ~
+  2: { at: 4 1 0 m }
+  +: [{ asset: floor }]
+lights: { 1: { sun: { illuminance: 20 lx } }, 0: { spot: { intensity: 1 cd, cone: 40 deg } } }
+observer: { rocket: { acceleration: 0 0 0.1 g }, look_at: ~ }
+exposures: { count: 7 }
+film: ~
+output: out/other
+";
+    let merged = "\
+spectra: { sodium: { line: 589 nm } }
+materials: { red: { mirror: 0.9 }, green: { diffuse: { rgb: 0 1 0 } } }
+assets: { ball: { sphere: { radius: 1 m } }, cube: { box: { size: 1 m } }, floor: plane }
+bodies:
+  - { asset: ball, at: 0 1 0 m, velocity: 0 0 0.9 c, material: red }
+  - { asset: cube, name: right, at: 4 1 0 m }
+  - { asset: floor }
+lights:
+  - { spot: { intensity: 1 cd, cone: 40 deg } }
+  - { sun: { illuminance: 20 lx, direction: 0 -1 0 } }
+observer: { rocket: { acceleration: 0 0 0.1 g }, field_of_view: 40 deg }
+exposures: { from: 0 s, to: 4 s, count: 7 }
+output: out/other
+";
+    let files = Files::of(&[("base.yaml", BASE), ("m.yaml", change), ("whole.yaml", merged)]);
+    let ((manifest, report), (whole, of_whole)) = (files.sound("m.yaml"), files.sound("whole.yaml"));
+    assert_eq!(meaning(&manifest), meaning(&whole));
+    assert_eq!(report.inputs.manifest, of_whole.inputs.manifest);
+    assert_eq!(report.warnings, []);
+    assert_eq!(manifest.extends, [files.path("base.yaml")]);
+}
+
+#[test]
+fn later_manifests_of_a_list_stand_above_earlier_ones() {
+    let files = Files::of(&[
+        ("a.yaml", "light_speed: 1 m/s\npicture: { samples: 1, depth: 2 }\n"),
+        ("b.yaml", "extends: c.yaml\npicture: { samples: 2 }\n"),
+        ("c.yaml", "picture: { samples: 3, wavelengths: 8 }\nobserver: {}\n"),
+        ("m.yaml", "extends: [a.yaml, b.yaml]\noutput: out\n"),
+    ]);
+    let (manifest, report) = files.sound("m.yaml");
+    let picture = &manifest.picture;
+    assert_eq!((picture.samples, picture.depth, picture.wavelengths, manifest.light_speed), (2, 2, 8, 1.0));
+    let bases: Vec<_> = ["a.yaml", "b.yaml", "c.yaml"].iter().map(|name| files.path(name)).collect();
+    assert_eq!(report.inputs.bases.into_iter().collect::<Vec<_>>(), bases);
+    assert_eq!(report.inputs.files.len(), 0);
+}
+
+#[test]
+fn paths_are_relative_to_the_file_that_names_them() {
+    let files = Files::of(&[
+        (
+            "studio/base.yaml",
+            "assets: { a: models/a.glb, b: models/b.glb }\nbodies: [{ asset: a }, { asset: b }]\n",
+        ),
+        ("m.yaml", "extends: studio/base.yaml\nassets: { b: models/b.glb }\nobserver: {}\noutput: out\n"),
+    ]);
+    let (manifest, _) = files.sound("m.yaml");
+    let file = |name: &str| manifest.assets[name].file().unwrap().file.value.clone();
+    assert_eq!(file("a"), files.path("studio/models/a.glb"));
+    assert_eq!(file("b"), files.path("models/b.glb"));
+}
+
+#[test]
+fn faults_are_shown_in_the_file_in_which_they_are() {
+    let files = Files::of(&[
+        ("base.yaml", "picture: { samples: 0 }\nobserver:\n  at: 0 0 0\n  up: 0 0 0\n"),
+        ("m.yaml", "# m\nextends: base.yaml\nobserver: { up: 0 1 }\nfilm: { rate: 0 }\noutput: out\n"),
+    ]);
+    let told = files.faults("m.yaml");
+    let places: Vec<_> = told.iter().map(|(file, line, _)| (file.as_str(), *line)).collect();
+    assert_eq!(places, [("m.yaml", 3), ("m.yaml", 4), ("base.yaml", 1), ("base.yaml", 3)], "{told:?}");
+}
+
+#[test]
+fn items_that_are_not_in_the_list_are_faults_with_the_nearest_name() {
+    let change = "extends: base.yaml\nbodies:\n  bal: {}\n  cube: {}\n  7: {}\nlights: { lamp: {} }\n";
+    let files = Files::of(&[("base.yaml", BASE), ("m.yaml", change)]);
+    let (_, report) = files.read("m.yaml");
+    let said: Vec<_> = report.faults.iter().map(|fault| format!("{}; {}", fault.what, fault.hint)).collect();
+    assert_eq!(
+        said,
+        [
+            "`bodies`: `bal` is no item of this list of 3; did you mean `ball`?",
+            "`bodies`: `cube` is no item of this list of 3; items are named, or numbered from 0 to 2; `+` adds to them",
+            "`bodies`: `7` is no item of this list of 3; items are named, or numbered from 0 to 2; `+` adds to them",
+            "`lights`: `lamp` is no item of this list of 2; items are named, or numbered from 0 to 1; `+` adds to them",
+        ]
+    );
+}
+
+#[test]
+fn manifests_extend_one_another_up_to_sixteen_deep() {
+    let chain = |count: usize| {
+        let mut files: Vec<(String, String)> = (1..count)
+            .map(|i| (format!("{i}.yaml"), format!("extends: {}.yaml\nspectra: {{ s{i}: D65 }}\n", i + 1)))
+            .collect();
+        files.push((format!("{count}.yaml"), "observer: {}\noutput: out\n".to_owned()));
+        Files::of(&files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect::<Vec<_>>())
+    };
+    assert_eq!(chain(17).sound("1.yaml").0.spectra.len(), 16);
+    let told = chain(18).faults("1.yaml");
+    assert_eq!((told[0].0.as_str(), told.len()), ("17.yaml", 1));
+    assert!(told[0].2.contains("more than 16 deep"), "{told:?}");
+}
+
+#[test]
+fn manifests_that_double_at_each_step_are_refused_soon() {
+    let mut files: Vec<(String, String)> =
+        (0..12).map(|i| (format!("{i}.yaml"), format!("extends: [{0}.yaml, {0}.yaml]\n", i + 1))).collect();
+    files.push(("12.yaml".to_owned(), "observer: {}\noutput: out\n".to_owned()));
+    let files: Vec<_> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let told = Files::of(&files).faults("0.yaml");
+    assert!(told.iter().all(|(_, _, what)| what.contains("64 in all")), "{told:?}");
+    assert!(told.len() < 40, "{}", told.len());
+}
+
+#[test]
+fn circles_are_named_whole() {
+    let files = Files::of(&[
+        ("a.yaml", "extends: sub/b.yaml\n"),
+        ("sub/b.yaml", "light_speed: 1 m/s\nextends: ../sub/../c.yaml\n"),
+        ("c.yaml", "extends: sub/b.yaml\n"),
+        ("self.yaml", "extends: ./self.yaml\n"),
+    ]);
+    let told = files.faults("a.yaml");
+    let what = "the manifest `b.yaml` extends itself: b.yaml -> c.yaml -> b.yaml".to_owned();
+    assert_eq!(told, [("c.yaml".to_owned(), 1, what)]);
+    assert!(files.faults("self.yaml")[0].2.ends_with("self.yaml -> self.yaml"));
+}
+
+#[test]
+fn an_output_that_is_another_manifests_is_warned_of() {
+    let files = Files::of(&[
+        ("base.yaml", "observer: {}\noutput: { folder: out, exr: on }\n"),
+        ("m.yaml", "extends: base.yaml\n"),
+        ("n.yaml", "extends: base.yaml\noutput: { folder: other }\n"),
+    ]);
+    let (_, report) = files.sound("m.yaml");
+    assert_eq!(report.warnings[0].what, "the pictures go where those of `base.yaml` go");
+    let (manifest, report) = files.sound("n.yaml");
+    assert!(report.warnings.is_empty() && manifest.output.exr.is_some());
+}
+
+#[test]
+fn films_are_known_again_by_what_is_said_and_not_by_how_it_is_divided() {
+    let files = Files::of(&[
+        ("base.yaml", "observer: {}\noutput: out\n"),
+        ("noted.yaml", "# a note\noutput: out\nobserver: {} # another\n"),
+        ("other.yaml", "observer: { at: 0 0 1 m }\noutput: out\n"),
+        ("a.yaml", "extends: base.yaml\n"),
+        ("b.yaml", "extends: noted.yaml\n"),
+        ("c.yaml", "extends: other.yaml\n"),
+    ]);
+    let digest = |name: &str| {
+        let inputs = files.sound(name).1.inputs;
+        (inputs.manifest, inputs.of_files())
+    };
+    assert_eq!(digest("a.yaml"), digest("b.yaml"));
+    assert_ne!(digest("a.yaml"), digest("c.yaml"));
+}
+
+#[test]
+fn what_is_extended_may_be_no_text_at_all() {
+    let files = Files::of(&[
+        ("list.yaml", "- a\n"),
+        ("m.yaml", "extends: [list.yaml, /dev/zero, folder, absent.yaml]\n"),
+        ("folder/x", ""),
+    ]);
+    let told: Vec<_> = files.faults("m.yaml").into_iter().map(|(file, _, what)| (file, what)).collect();
+    assert_eq!(told.len(), 4, "{told:?}");
+    assert_eq!(told[3], ("list.yaml".to_owned(), "a manifest is a map of keys; this is a list".to_owned()));
+    let ends = ["this is not a file", "this is a folder", "there is no such file"];
+    for ((_, what), end) in told.iter().zip(ends) {
+        assert!(what.ends_with(end), "{what}");
+    }
+    let set = [("extends".to_owned(), "other.yaml".to_owned())];
+    let mut report = Report::default();
+    manifest::parse_with(Path::new("m.yaml"), "observer: {}\noutput: out\n", &set, &mut report);
+    assert_eq!(report.faults[0].hint, "write `extends: ..` into it");
+}
