@@ -16,6 +16,8 @@ mod body;
 mod canonical;
 mod course;
 mod glass;
+mod keyed;
+mod lens;
 mod light;
 mod list;
 mod material;
@@ -42,6 +44,8 @@ mod yaml;
 pub use body::{AssetRef, AssetSource, Body, ModelFile};
 pub use course::{Blinking, Course, Key};
 pub use glass::{Glass, GlassName, Index, Tint};
+pub use keyed::ObserverKey;
+pub use lens::Lens;
 pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
 pub use material::{Beyond, BlinkingMaterial, Gloss, Material, MaterialKey, MaterialKind, Metal, MetalName};
 pub(crate) use motion::GREATEST_GAMMA;
@@ -180,6 +184,7 @@ fn read(path: &Path, root: &node::Node, report: &mut Report) -> Option<Manifest>
             report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
     }
+    lens::check_size(&manifest, report);
     if manifest.film.is_none() && manifest.exposures.count > 1 {
         manifest.film = Some(Film::usual());
     }

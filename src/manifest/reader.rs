@@ -1,5 +1,6 @@
 //! What is at hand while a manifest is read: the report, the key being read, and what names stand for.
 
+use super::lens::Lens;
 use super::material::Material;
 use super::names::Names;
 use super::node::Node;
@@ -41,6 +42,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) bodies: Vec<String>,
     /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
     pub(crate) ring: bool,
+    /// What the observer's camera makes its pictures with.
+    pub(crate) lens: Lens,
     pub(crate) spectra: Names<Spectrum>,
     pub(crate) materials: Names<Material>,
     keys: Vec<String>,
@@ -58,6 +61,7 @@ impl<'a> Reader<'a> {
             solids: BTreeSet::new(),
             bodies: Vec::new(),
             ring: false,
+            lens: Lens::Pinhole,
             spectra: Names::default(),
             materials: Names::default(),
             keys: Vec::new(),
