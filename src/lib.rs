@@ -19,6 +19,7 @@ pub mod fresnel;
 pub mod import;
 pub mod inputs;
 pub mod lamp;
+pub mod lens;
 pub mod manifest;
 pub mod mesh;
 pub mod observer;

@@ -1,5 +1,6 @@
 //! The observer's camera: where it is, where it looks, and the sight ray of each place in the picture.
 
+use crate::lens::{Lens, Optics};
 use crate::spacetime::{
     Boost, Camera, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Velocity, Worldline,
     looking_along,
@@ -21,7 +22,7 @@ pub enum Aim {
     },
 }
 
-/// An observer with a pinhole camera.
+/// An observer with a camera.
 #[derive(Debug, Clone)]
 pub struct Observer {
     /// Its motion.
@@ -30,8 +31,8 @@ pub struct Observer {
     pub aim: Aim,
     /// What is up in the picture, in the axes that the observer carries.
     pub up: DVec3,
-    /// Across the picture's width, radians.
-    pub field_of_view: f64,
+    /// What the camera makes its pictures with.
+    pub lens: Lens,
     /// With aberration switched off: the velocity of all bodies and the turn of the observer's axes. Directions are
     /// then those of a camera at the same event that stands still beside the bodies.
     pub unaberrated: Option<Unaberrated>,
@@ -53,9 +54,7 @@ pub struct View {
     pub tetrad: Tetrad,
     // Into the observer's true rest frame, where the tetrad's is not.
     seer: Option<Boost<Camera, Lab>>,
-    // Half the width of the picture at distance 1, and the picture's size in pixels.
-    half_width: f64,
-    size: DVec2,
+    optics: Optics,
 }
 
 impl Observer {
@@ -81,18 +80,21 @@ impl Observer {
         View {
             tetrad: axes.turned(looking_along(forward, self.up)),
             seer: self.unaberrated.map(|_| Boost::to_moving(Velocity::from_proper(carried.velocity().x))),
-            half_width: libm::tan(0.5 * self.field_of_view),
-            size: DVec2::new(f64::from(width), f64::from(height)),
+            optics: self.lens.optics(width, height),
         }
     }
 }
 
 impl View {
+    /// Whether a place in the picture shows anything: not beyond 180° from where a fisheye looks.
+    #[inline]
+    pub fn shows(&self, pixel: DVec2) -> bool {
+        self.optics.shows(pixel)
+    }
+
     /// The unit direction, in the camera's axes, of a place in the picture: pixels from the upper left corner.
     pub fn direction(&self, pixel: DVec2) -> DVec3 {
-        let from_centre = (pixel - 0.5 * self.size) * (2.0 * self.half_width / self.size.x);
-        let direction = DVec3::new(from_centre.x, -from_centre.y, -1.0);
-        direction / direction.length()
+        self.optics.direction(pixel)
     }
 
     /// The sight ray of a place in the picture, k·u = 1.
@@ -105,9 +107,7 @@ impl View {
     pub fn sight(&self, pixel: DVec2, spacing: f64) -> (SightRay, Cone) {
         let direction = self.direction(pixel);
         let ray = self.tetrad.sight_ray(direction);
-        // A pixel's solid angle is its area on the plane at distance 1, times cos³.
-        let cosine = -direction.z;
-        let half = self.half_width / self.size.x * cosine * cosine.sqrt();
+        let half = self.optics.half_width(direction);
         let cone = |half: f64| Cone { sample: half * spacing, pixel: half, phase: 0.0 };
         match self.seer {
             // With aberration switched off the angle is seen by those beside whom the light has another frequency.
@@ -140,12 +140,8 @@ impl View {
         apparent.try_normalize().unwrap_or(-toward)
     }
 
-    /// Where in the picture light with the wave vector `k` arrives; none from behind the camera.
+    /// Where in the picture light with the wave vector `k` arrives; none from behind a pinhole.
     pub fn pixel_of(&self, k: FourVector) -> Option<DVec2> {
-        let direction = self.tetrad.direction_of(k);
-        (direction.z < 0.0).then(|| {
-            let on_plane = DVec2::new(direction.x, -direction.y) / -direction.z;
-            on_plane * (self.size.x / (2.0 * self.half_width)) + 0.5 * self.size
-        })
+        self.optics.pixel_of(self.tetrad.direction_of(k))
     }
 }

@@ -92,10 +92,13 @@ pub(crate) fn eyes(dice: &mut Dice) -> Vec<(Eye, f64)> {
         let rest_from_lab = Poincare::to_moving(Velocity::REST, Event::ORIGIN);
         Eye { aim: Aim::At { rest_from_lab, place: v(0.0, 0.0, -8.0) }, ..eye.moving(b) }
     };
-    let fast = moves(still, 0.6, dice);
-    let rocket =
-        Eye { course: Course::Rocket { acceleration: dice.direction() * 0.3 }, ..moves(still, 0.3, dice) };
-    let orbit = Eye { course: Course::Orbit { circle, proper_speed: 0.8 }, ..moves(still, 0.3, dice) };
+    let fast = moves(still.clone(), 0.6, dice);
+    let rocket = Eye {
+        course: Course::Rocket { acceleration: dice.direction() * 0.3 },
+        ..moves(still.clone(), 0.3, dice)
+    };
+    let orbit =
+        Eye { course: Course::Orbit { circle, proper_speed: 0.8 }, ..moves(still.clone(), 0.3, dice) };
     vec![(still, 0.0), (fast, 0.4), (rocket, 1.5), (orbit, 0.7)]
 }
 

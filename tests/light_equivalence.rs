@@ -176,7 +176,7 @@ pub(crate) fn eyes(dice: &mut Dice) -> Vec<(Eye, f64)> {
     let still = Eye { rotation: dice.turn(), aim, ..Eye::at(0.0, DVec3::ZERO).wide(60.0) };
     let course = spacetime::Course::Rocket { acceleration: dice.direction() * 0.3 };
     let rocket = Eye { course, ..still.moving(dice.velocity(0.3)) };
-    vec![(still, 0.0), (still.moving(dice.velocity(0.6)), 0.0), (rocket, 1.0)]
+    vec![(still.clone(), 0.0), (still.moving(dice.velocity(0.6)), 0.0), (rocket, 1.0)]
 }
 
 #[test]

@@ -6,11 +6,26 @@ use crate::support::{
 };
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
+use std::sync::Arc;
 use terrell::observer::Aim;
-use terrell::spacetime::{Camera, Circle, Course, Event, FourVector, Poincare, Tetrad, Velocity, Worldline};
+use terrell::spacetime::{
+    Camera, Circle, Course, Event, FourVector, Poincare, Tetrad, Track, Velocity, Worldline,
+};
 
 fn rocket(acceleration: DVec3) -> Worldline {
     Worldline::new(Event::ORIGIN, Velocity::REST, DQuat::IDENTITY, Course::Rocket { acceleration })
+}
+
+/// A winding path through a few places, up to about 0.9 c.
+fn keyed(a: DVec3) -> Course {
+    let keys = [
+        (-2.0, a * 0.2),
+        (-0.7, v(0.1, a.x * 0.1, 0.05)),
+        (0.4, a * 0.2),
+        (1.1, a * 0.05),
+        (3.0, v(0.1, 0.4, -0.4)),
+    ];
+    Course::Keyed(Arc::new(Track::through(&keys).unwrap()))
 }
 
 /// The axes e1, e2, e3 and u in the lab.
@@ -119,9 +134,9 @@ proptest! {
         start in velocities(2.0), axis in vectors(), turn in -3.0..3.0_f64, a in vectors(), fast in -3.0..3.0_f64, tau in -2.0..2.0_f64
     ) {
         let circle = Circle::around(a, axis, 2.0, turn);
-        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, Course::Ring { circle, turns: 1.0, instants: (0.0, 0.0) }] {
+        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, Course::Ring { circle, turns: 1.0, instants: (0.0, 0.0) }, keyed(a)] {
             let turned = DQuat::from_axis_angle(axis / axis.length(), turn);
-            let tetrad = Worldline::new(Event::new(1.0, a), start, turned, course).at(tau);
+            let tetrad = Worldline::new(Event::new(1.0, a), start, turned, course.clone()).at(tau);
             let axes = axes(&tetrad);
             let rounding = 1e-13 * tetrad.velocity().t.powi(2) + 1e-13 * start.gamma().powi(4);
             for (i, one) in axes.iter().enumerate() {
@@ -139,8 +154,8 @@ proptest! {
     #[test]
     fn clock_reads_back_from_lab_time(start in velocities(2.0), a in vectors(), fast in -3.0..3.0_f64, tau in -3.0..3.0_f64) {
         let circle = Circle::around(a, v(1.0, 2.0, 2.0), 2.0, 0.3);
-        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }] {
-            let worldline = Worldline::new(Event::new(4.0, a), start, DQuat::IDENTITY, course);
+        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, keyed(a)] {
+            let worldline = Worldline::new(Event::new(4.0, a), start, DQuat::IDENTITY, course.clone());
             let back = worldline.tau_at_lab(worldline.at(tau).event.t).unwrap();
             prop_assert!((back - tau).abs() < 1e-12 * start.gamma() * 10.0, "{course:?}: {back} for {tau}");
         }
@@ -150,8 +165,8 @@ proptest! {
     #[test]
     fn clocks_measure_the_length_of_their_path(start in velocities(1.5), a in vectors(), fast in -2.0..2.0_f64, tau in -2.0..2.0_f64) {
         let circle = Circle::around(a, v(1.0, 2.0, 2.0), 2.0, 0.3);
-        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }] {
-            let worldline = Worldline::new(Event::new(4.0, a), start, DQuat::IDENTITY, course);
+        for course in [Course::Inertial, Course::Rocket { acceleration: a }, Course::Orbit { circle, proper_speed: fast }, keyed(a)] {
+            let worldline = Worldline::new(Event::new(4.0, a), start, DQuat::IDENTITY, course.clone());
             let half = 1e-4;
             let step = worldline.at(tau + half).event - worldline.at(tau - half).event;
             prop_assert!((step.dot(step).sqrt() / (2.0 * half) - 1.0).abs() < 1e-6);

@@ -74,6 +74,9 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
         let mut lines = DVec3::ZERO;
         for (offset, phase) in offsets.iter().zip(&phases) {
             let place = centre + *offset;
+            if !view.shows(place) {
+                continue;
+            }
             let (ray, cone) = view.sight(place, spacing);
             let light = lit.seen_within(&ray, Cone { phase: *phase, ..cone }, &wavelengths);
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
@@ -102,8 +105,10 @@ fn phase(number: u32) -> f64 {
 /// What stands first in the way at each pixel's centre.
 pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
     let lit = scene.lit().seen_from(view.tetrad.event);
-    let first =
-        |column: usize, row: usize| lit.first(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)));
+    let first = |column: usize, row: usize| {
+        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        if view.shows(place) { lit.first(&view.ray(place)) } else { None }
+    };
     by_pixel(width, height, first)
 }
 

@@ -246,7 +246,11 @@ impl<'a> Measuring<'a> {
                 if number == numbers.end / 2 {
                     sums.half = sums.xyz;
                 }
-                let (ray, cone) = self.view.sight(centre + *offset, spacing);
+                let place = centre + *offset;
+                if !self.view.shows(place) {
+                    continue;
+                }
+                let (ray, cone) = self.view.sight(place, spacing);
                 let light = self.lit.seen_within(&ray, Cone { phase: phase(number), ..cone }, rule);
                 let one = rule.xyz(&light.radiance) + light.lines;
                 sums.xyz += one;

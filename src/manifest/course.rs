@@ -44,11 +44,13 @@ choice! {
     }
 }
 
-/// A list of keys, each with its time `at`, which rise.
+/// A list of keys, each with its time, which rise.
 pub(crate) struct Rising<K>(PhantomData<K>);
 
 /// Something at a time.
 pub(crate) trait Timed {
+    /// The key under which its time is written.
+    const KEY: &'static str = "at";
     /// Metres of light travel.
     fn at(&self) -> f64;
 }
@@ -74,16 +76,18 @@ where
         for (pair, nodes) in keys.windows(2).zip(items.windows(2)) {
             let ([before, key], [before_node, key_node]) = (pair, nodes) else { continue };
             if key.at() <= before.at() {
-                let text = |node: &Node| node.get("at").and_then(|at| at.text()).unwrap_or("0 s").to_owned();
+                let text = |node: &Node| {
+                    node.get(K::Value::KEY).and_then(|at| at.text()).unwrap_or("0 s").to_owned()
+                };
                 let (first, second) = (text(before_node), text(key_node));
-                let place = key_node.get("at").map_or(&key_node.place, |at| &at.place);
+                let place = key_node.get(K::Value::KEY).map_or(&key_node.place, |at| &at.place);
                 let what = format!("the times of keys must rise: `{second}` comes after `{first}`");
                 rising =
                     Err(reader.fault(place, what, "put the keys in the order of their times, each once"));
             }
         }
         if keys.is_empty() {
-            let hint = "keys: [{ at: 0 s, .. }, { at: 2 s, .. }], or remove it";
+            let hint = format!("keys: [{{ {0}: 0 s, .. }}, {{ {0}: 2 s, .. }}], or remove it", K::Value::KEY);
             rising = Err(reader.fault(&node.place, "here are no keys", hint));
         }
         rising.map(|()| keys)

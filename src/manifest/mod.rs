@@ -18,6 +18,8 @@ mod course;
 mod exposures;
 mod extends;
 mod glass;
+mod keyed;
+mod lens;
 mod light;
 mod list;
 mod material;
@@ -47,6 +49,8 @@ pub use body::{AssetRef, AssetSource, Body, ModelFile};
 pub use course::{Blinking, Course, Key};
 pub use exposures::{Clock, Exposures};
 pub use glass::{Glass, GlassName, Index, Tint};
+pub use keyed::ObserverKey;
+pub use lens::Lens;
 pub use light::{Amount, Glow, Lamp, Light, LightSource, Spot, Strength, Sun};
 pub use material::{Beyond, BlinkingMaterial, Gloss, Material, MaterialKey, MaterialKind, Metal, MetalName};
 pub(crate) use motion::GREATEST_GAMMA;
@@ -255,6 +259,7 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
             reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
     }
+    lens::check_size(&manifest, reader.report);
     if manifest.film.is_none() && manifest.exposures.count > 1 {
         manifest.film = Some(Film::usual());
     }

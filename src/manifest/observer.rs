@@ -1,13 +1,17 @@
 //! The observer as written.
 
 use super::Spanned;
+use super::keyed::PathKeys;
+use super::lens::{self, FieldOfView, Lens};
 use super::motion::{Placement, Speed};
 use super::node::Node;
 use super::plain::{Direction, Real};
-use super::quantity::{Acceleration, Angle, Length, Point, ViewAngle, Written};
+use super::quantity::{Acceleration, Angle, Length, Point, Written};
 use super::reader::{Read, Reader, instead};
 use super::record::{Kind, Shape, choice, record};
+use crate::spacetime::Track;
 use glam::DVec3;
+use std::sync::Arc;
 
 record! {
     /// Who looks. The placement says where its start frame S is and how that moves: a frame whose origin is at
@@ -19,8 +23,11 @@ record! {
         @include worldline: Worldline, "How the observer moves in S.";
         /// What is up in the picture: 0 1 0 unless said.
         up: DVec3 = Direction, default(DVec3::Y), "0 1 0";
-        /// Angle across the width of the picture: 50 deg unless said.
-        field_of_view: f64 = ViewAngle, default(50.0 * std::f64::consts::PI / 180.0), "50 deg";
+        /// How places in the picture belong to directions: `pinhole` unless said.
+        lens: Lens = Lens, default(Lens::Pinhole), "fisheye";
+        /// Angle across the width of the picture: of a pinhole below 180 deg, and 50 deg unless said; of a fisheye up to
+        /// 360 deg, and 180 deg unless said.
+        field_of_view: Option<f64> = FieldOfView, optional, "50 deg";
     }
 }
 
@@ -45,6 +52,8 @@ choice! {
         /// Not one observer but a ring of them, all at rest, one for each exposure: a look around something
         /// that is held at one instant.
         ring => Ring(Ring) = Ring, "{ radius: 4 m }";
+        /// Places at times, and between them a smooth path (velocity and acceleration are continuous).
+        keys => Keys(Arc<Track>) = PathKeys, "[{ at_time: 0 s, at: 0 1 5 m }, { at_time: 4 s, at: 2 1 4 m }]";
     }
 }
 
@@ -133,6 +142,7 @@ impl Kind for ObserverKind {
         Observer::shape()
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Observer> {
+        reader.lens = lens::of(node);
         reader.ring = node.get("ring").is_some();
         let observer = <Observer as Kind>::read(node, reader)?;
         let View::Direction(direction) = observer.view else { return Ok(observer) };

@@ -281,7 +281,7 @@ scalars! {
     /// Radians.
     Angle: "an angle", [Angle], "deg";
     /// Radians, between 0 and 180 degrees.
-    ViewAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x < std::f64::consts::PI, "50 deg (between 0 and 180)";
+    ViewAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x < std::f64::consts::PI, "50 deg (between 0 and 180), or lens: fisheye";
     /// Radians, above 0 and up to 360 degrees.
     ConeAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x <= std::f64::consts::TAU, "40 deg (up to 360)";
     /// Kelvin, > 0.

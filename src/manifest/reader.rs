@@ -1,6 +1,7 @@
 //! What is at hand while a manifest is read: the report, the key being read, and what names stand for.
 
 use super::body::{AssetRef, Body};
+use super::lens::Lens;
 use super::material::Material;
 use super::names::Names;
 use super::node::Node;
@@ -51,6 +52,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) bodies: Vec<String>,
     /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
     pub(crate) ring: bool,
+    /// What the observer's camera makes its pictures with.
+    pub(crate) lens: Lens,
     pub(crate) spectra: Names<Spectrum>,
     pub(crate) materials: Names<Material>,
     /// What could be read of things that stand in files, whatever else has faults.
@@ -70,6 +73,7 @@ impl<'a> Reader<'a> {
             solids: BTreeSet::new(),
             bodies: Vec::new(),
             ring: false,
+            lens: Lens::Pinhole,
             spectra: Names::default(),
             materials: Names::default(),
             rest: Rest::default(),

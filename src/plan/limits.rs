@@ -25,11 +25,14 @@ const WORTH_SAYING: f64 = 1e-3;
 /// The greatest Lorentz factor of glass: light in it is no null vector, and by the plain formulas.
 const GREATEST_GAMMA_OF_GLASS: f64 = 1e5;
 
-/// Says at the exposures' ends, where things are farthest apart, what is beyond the limits.
+/// Says at the exposures' ends, where things are farthest apart (on a path through keys at all of them), what is beyond the limits.
 pub(super) fn check(manifest: &Manifest, scene: &Scene, exposures: &[Exposure], report: &mut Report) {
     let faults = report.faults.len();
     let mut ends = vec![];
-    for exposure in exposures.first().into_iter().chain(exposures.last()) {
+    let everywhere = matches!(scene.observer.worldline.course(), Course::Keyed(_));
+    let last = exposures.len().saturating_sub(1);
+    let ends_or_all = |index: usize| everywhere || index == 0 || index == last;
+    for (_, exposure) in exposures.iter().enumerate().filter(|(index, _)| ends_or_all(*index)) {
         let tetrad = scene.observer.worldline.at(exposure.tau);
         check_speed(manifest, scene, exposure, tetrad.velocity().t, tetrad.event, report);
         if report.faults.len() > faults {
@@ -60,9 +63,10 @@ fn check_speed(
         let hint = "up to 1e8 can be followed: take a shorter time or a smaller acceleration";
         return report.fault(place(), what, hint);
     }
-    let of_course = match *scene.observer.worldline.course() {
+    let of_course = match scene.observer.worldline.course() {
         Course::Inertial | Course::Ring { .. } => 1.0,
         Course::Rocket { acceleration } => libm::cosh(acceleration.length() * exposure.tau),
+        Course::Keyed(track) => 1.0 / (1.0 - track.at(track.when(exposure.tau)).1.length_squared()).sqrt(),
         Course::Orbit { proper_speed, .. } => (1.0 + proper_speed * proper_speed).sqrt(),
     };
     let of_start = manifest.observer.placement.velocity.gamma();

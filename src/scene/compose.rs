@@ -252,6 +252,7 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
             turns: ring.turns,
             instants: ring_instants(&manifest.exposures),
         },
+        manifest::Worldline::Keys(track) => Course::Keyed(track.clone()),
     };
     let Placement { origin, velocity } = placement(&written.placement);
     let rotation = written.placement.rotation;
@@ -270,7 +271,7 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
         worldline: Worldline::new(origin, velocity, rotation, course),
         aim,
         up: written.up,
-        field_of_view: written.field_of_view,
+        lens: written.optics(),
         unaberrated: unaberrated(manifest, report),
     }
 }

@@ -10,12 +10,14 @@
 
 mod boost;
 mod event;
+mod keyed;
 mod ray;
 mod velocity;
 mod worldline;
 
 pub use boost::{Boost, Lorentz, Poincare};
 pub use event::{Event, FourVector};
+pub use keyed::{TooFast, Track};
 pub use ray::{Doppler, SightRay};
 pub use velocity::{NotSlowerThanLight, Velocity};
 pub use worldline::{Circle, Course, Tetrad, Worldline, looking_along};

@@ -1,11 +1,12 @@
 //! Worldlines of observers, and the tetrads they carry.
 
-use super::{Boost, Camera, Event, FourVector, Lab, Lorentz, Rest, SightRay, Velocity};
+use super::{Boost, Camera, Event, FourVector, Lab, Lorentz, Rest, SightRay, Track, Velocity};
 use glam::{DQuat, DVec3};
+use std::sync::Arc;
 
 /// How an observer moves, described in the frame in which it starts: at rest there at the origin, with its
 /// clock at zero (an orbit and a ring: on the circle).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Course {
     /// Uniform motion: at rest in the starting frame.
     Inertial,
@@ -34,6 +35,8 @@ pub enum Course {
         /// Starting-frame time of the first and of the last, metres; the same for a frozen instant.
         instants: (f64, f64),
     },
+    /// Through places at times of the starting frame; the clock is at zero at its time zero.
+    Keyed(Arc<Track>),
 }
 
 /// A circle in the starting frame, told by two perpendicular radii.
@@ -71,7 +74,7 @@ impl Circle {
 ///
 /// The axes it carries are at every moment the pure boost of the starting frame's (not Fermi-Walker transported:
 /// on a circle they do not precess).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Worldline {
     origin: Event,
     lab_from_start: Lorentz<Lab, Rest>,
@@ -92,11 +95,16 @@ impl Worldline {
         &self.course
     }
 
+    /// The time of the starting frame at proper time `tau`.
+    pub fn start_time(&self, tau: f64) -> f64 {
+        self.in_start(tau).0.t
+    }
+
     /// In the starting frame at proper time `tau` (metres; a ring: part of the film): the event, and the velocity.
     fn in_start(&self, tau: f64) -> (Event<Rest>, Velocity) {
-        match self.course {
+        match &self.course {
             Course::Inertial => (Event::new(tau, DVec3::ZERO), Velocity::REST),
-            Course::Rocket { acceleration } => {
+            &Course::Rocket { acceleration } => {
                 let a = acceleration.length();
                 let along = acceleration / a;
                 // cosh - 1 = 2 sinh²(./2) keeps its digits for short times.
@@ -104,14 +112,20 @@ impl Worldline {
                 let event = Event::new(libm::sinh(a * tau) / a, along * (2.0 * half * half / a));
                 (event, Velocity::from_proper(along * libm::sinh(a * tau)))
             }
-            Course::Orbit { circle, proper_speed } => {
+            &Course::Orbit { circle, proper_speed } => {
                 let gamma = (1.0 + proper_speed * proper_speed).sqrt();
                 let (place, along) = circle.at(proper_speed * tau / circle.radius.length());
                 (Event::new(gamma * tau, place), Velocity::from_proper(along * proper_speed))
             }
-            Course::Ring { circle, turns, instants: (first, last) } => {
+            &Course::Ring { circle, turns, instants: (first, last) } => {
                 let (place, _) = circle.at(std::f64::consts::TAU * turns * tau);
                 (Event::new(first + (last - first) * tau, place), Velocity::REST)
+            }
+            Course::Keyed(track) => {
+                let t = track.when(tau);
+                let (place, beta) = track.at(t);
+                // A track is slower than light everywhere.
+                (Event::new(t, place), Velocity::from_beta(beta).unwrap_or(Velocity::REST))
             }
         }
     }

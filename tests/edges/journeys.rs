@@ -63,7 +63,7 @@ fn orbit_at_0_9999_c_sees_its_centre_by_gamma_and_where_aberration_puts_it() {
     let circle = Circle::around(centre, axis, 10.0, 0.3);
     for sense in [1.0, -1.0] {
         let course = Course::Orbit { circle, proper_speed: sense * velocity.proper().x };
-        let worldline = Worldline::new(Event::ORIGIN, Velocity::REST, DQuat::IDENTITY, course);
+        let worldline = Worldline::new(Event::ORIGIN, Velocity::REST, DQuat::IDENTITY, course.clone());
         for tau in [0.0, 0.01, 1.7, 300.0, -4e4, 1e6] {
             let tetrad = worldline.at(tau);
             let radius = tetrad.event.x - centre;
@@ -72,7 +72,7 @@ fn orbit_at_0_9999_c_sees_its_centre_by_gamma_and_where_aberration_puts_it() {
             near(tetrad.velocity().x.dot(radius), 0.0, 1e-10);
             near(tetrad.event.t, gamma * tau, 1e-14 * gamma * f64::abs(tau));
             let body = Body::of(ball(0.1, centre), glowing(black_body(5000.0 / gamma)));
-            let eye = Eye { course, aim: Aim::Along(DVec3::X), ..Eye::at(0.0, DVec3::ZERO) };
+            let eye = Eye { course: course.clone(), aim: Aim::Along(DVec3::X), ..Eye::at(0.0, DVec3::ZERO) };
             let scene = Stage::of([body]).seen_by(&eye);
             let light = FourVector::new(10.0, radius);
             let toward = tetrad.direction_of(light);

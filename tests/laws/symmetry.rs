@@ -201,7 +201,7 @@ fn turned_eye(turn: DQuat, eye: &Eye) -> Eye {
     };
     let (origin, velocity) = (eye.origin, turned_velocity(turn, eye.velocity));
     let origin = Event::new(origin.t, turn * origin.x);
-    Eye { origin, velocity, rotation: turn * eye.rotation, aim, ..*eye }
+    Eye { origin, velocity, rotation: turn * eye.rotation, aim, ..eye.clone() }
 }
 
 /// How pictures differ that should not, after some turns.

@@ -65,7 +65,7 @@ fn angles_are_radians() {
         [("90 deg", FRAC_PI_2), ("90°", FRAC_PI_2), ("1 rad", 1.0), ("0.25 turn", FRAC_PI_2)]
     {
         assert!(
-            close(observer(&format!("{{ field_of_view: {written} }}")).field_of_view, radians),
+            close(observer(&format!("{{ field_of_view: {written} }}")).field_of_view.unwrap(), radians),
             "{written}"
         );
     }

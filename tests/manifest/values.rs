@@ -42,7 +42,7 @@ fn the_flyby_means_what_it_says() {
     assert_eq!(flyby.lights[0].placement.at, DVec3::new(0.0, 4.0, 3.0));
     assert!(matches!(&flyby.observer.view, View::LookAt(LookAt::Body(body)) if body.value == 0));
     assert!(matches!(flyby.observer.worldline, Worldline::Rest));
-    assert!(close(flyby.observer.field_of_view, 50.0 / 180.0 * PI));
+    assert!(close(flyby.observer.field_of_view.unwrap(), 50.0 / 180.0 * PI));
     assert_eq!((flyby.exposures.from, flyby.exposures.to, flyby.exposures.count), (-4.0, 9.0, 96));
     assert_eq!((flyby.picture.size, flyby.picture.samples), ((1280, 720), 4));
     assert_eq!(flyby.film.map(|film| film.rate), Some(24.0));

@@ -62,7 +62,13 @@ pub(crate) fn eye(boost: Velocity, eye: &Eye) -> Eye {
         Aim::Along(direction) => Aim::Along(direction),
         Aim::At { rest_from_lab, place } => target(boost, rest_from_lab, place),
     };
-    Eye { origin: event(boost, eye.origin), velocity: moves, rotation: turn * eye.rotation, aim, ..*eye }
+    Eye {
+        origin: event(boost, eye.origin),
+        velocity: moves,
+        rotation: turn * eye.rotation,
+        aim,
+        ..eye.clone()
+    }
 }
 
 fn target(boost: Velocity, rest_from_lab: Poincare<Rest, Lab>, place: DVec3) -> Aim {

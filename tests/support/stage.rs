@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::sync::Arc;
 use terrell::course::Course as Clockwork;
 use terrell::lamp::{Beam, Lamp};
+use terrell::lens::Lens;
 use terrell::mesh::Mesh;
 use terrell::observer::{Aim, Observer};
 use terrell::scene::{Placement, Scene, WorldBuilder};
@@ -243,7 +244,7 @@ impl Stage {
 }
 
 /// An observer, still as data.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Eye {
     pub(crate) origin: Event,
     pub(crate) velocity: Velocity,
@@ -251,7 +252,7 @@ pub(crate) struct Eye {
     pub(crate) course: Course,
     pub(crate) aim: Aim,
     pub(crate) up: DVec3,
-    pub(crate) field_of_view: f64,
+    pub(crate) lens: Lens,
 }
 
 impl Eye {
@@ -264,32 +265,32 @@ impl Eye {
             course: Course::Inertial,
             aim: Aim::Along(DVec3::NEG_Z),
             up: DVec3::Y,
-            field_of_view: 60.0_f64.to_radians(),
+            lens: Lens::Pinhole { across: 60.0_f64.to_radians() },
         }
     }
 
     /// It moves.
-    pub(crate) fn moving(self, velocity: Velocity) -> Self {
-        Self { velocity, ..self }
+    pub(crate) fn moving(&self, velocity: Velocity) -> Self {
+        Self { velocity, ..self.clone() }
     }
 
     /// It looks along a direction of the axes it carries.
-    pub(crate) fn toward(self, direction: DVec3) -> Self {
-        Self { aim: Aim::Along(direction), ..self }
+    pub(crate) fn toward(&self, direction: DVec3) -> Self {
+        Self { aim: Aim::Along(direction), ..self.clone() }
     }
 
     /// This many degrees wide.
-    pub(crate) fn wide(self, degrees: f64) -> Self {
-        Self { field_of_view: degrees.to_radians(), ..self }
+    pub(crate) fn wide(&self, degrees: f64) -> Self {
+        Self { lens: Lens::Pinhole { across: degrees.to_radians() }, ..self.clone() }
     }
 
     /// As the scene takes it.
     pub(crate) fn observer(&self) -> Observer {
         Observer {
-            worldline: Worldline::new(self.origin, self.velocity, self.rotation, self.course),
+            worldline: Worldline::new(self.origin, self.velocity, self.rotation, self.course.clone()),
             aim: self.aim,
             up: self.up,
-            field_of_view: self.field_of_view,
+            lens: self.lens,
             unaberrated: None,
         }
     }
