@@ -240,7 +240,7 @@ fn light_of_a_star_is_all_in_the_picture_wherever_it_stands() {
 fn what_a_fisheye_does_not_show_is_black_and_settled() {
     let scene = Stage::of([]).under(sky()).seen_by(&eye(Lens::Fisheye { across: TAU }));
     let view = scene.observer.view(0.0, 32, 32);
-    let development = Development { white: 100.0 };
+    let development = Development::new(100.0, 1.0);
     let settled = expose_settled(&scene.lit(), &view, &sampling(32, 32), &development, 1.0);
     assert_eq!(settled.negative.xyz[0], [0.0; 3]);
     assert!(settled.negative.xyz[16 * 32 + 16][1] > 1.0, "{:?}", settled.negative.xyz[16 * 32 + 16]);

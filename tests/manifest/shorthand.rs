@@ -147,7 +147,7 @@ fn what_the_observer_says_of_the_picture_stays() {
     );
     assert!(matches!(m.observer.view, View::Direction(along) if along == DVec3::NEG_Z));
     assert_eq!((m.observer.up, m.exposures.count, m.exposures.clock), (DVec3::X, 96, Clock::Own));
-    assert!(close(m.observer.field_of_view, std::f64::consts::FRAC_PI_2));
+    assert!(close(m.observer.field_of_view.unwrap(), std::f64::consts::FRAC_PI_2));
     assert!(m.film.is_some() && matches!(m.observer.worldline, Worldline::Rest));
     // From straight above nothing of the usual `up` would be seen: the way goes up.
     let m = read("flyby: { past: 0 0 0 m, distance: 1 m, speed: 0.5 c, side: 0 1 0 }\noutput: out\n");
