@@ -239,3 +239,23 @@ fn albedo_is_the_colour_that_was_written_whatever_the_light_and_the_motion() {
     }
     assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
 }
+
+#[test]
+fn false_colours_mean_the_same_in_all_pictures_of_a_film_and_in_a_part_of_it() {
+    let output = "output: { folder: out, doppler: on, emission_time: on }\n";
+    let text = format!("{SCENE}film: {{ video: off }}\n{output}");
+    let whole = made(&text);
+    for picture in [Picture::Doppler, Picture::EmissionTime] {
+        let read = |index: usize| read_png(&whole.plan.picture(index, picture), (64, 86)).unwrap().rgb;
+        let (first, second) = (read(0), read(1));
+        assert_ne!(first[..3 * 64 * 48], second[..3 * 64 * 48]);
+        assert_eq!(first[3 * 64 * 48..], second[3 * 64 * 48..]);
+        let texts = png_texts(&whole.plan.picture(1, picture));
+        assert_eq!(texts, png_texts(&whole.path("0001.png")));
+        let path = whole.plan.picture(2, picture);
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        render(&whole.scene, &whole.plan, 2..3, |_| ()).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), bytes);
+    }
+}

@@ -138,7 +138,7 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
         ),
         ("files", format!("{}", plan.folder.display())),
     ];
-    if let Some(film) = render::film_path(plan, plan.exposures.len()) {
+    for film in render::film_paths(plan, plan.exposures.len()) {
         needs.push(("film", format!("{}", film.display())));
     }
     needs

@@ -5,7 +5,8 @@ use super::plain::{FilePath, Real, Switch, Text, whole, words};
 use super::reader::{Read, Reader};
 use super::record::{Kind, List, Shape, record};
 use crate::error::Place;
-use std::path::{Path, PathBuf};
+use crate::output::FilmKind;
+use std::path::PathBuf;
 
 /// Pictures in a second of the film.
 struct Rate;
@@ -36,16 +37,41 @@ impl Kind for FileName {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<String> {
         let name = Text::read(node, reader)?;
         let plain = !name.contains(['/', '\\', ':', '\0']) && !name.starts_with('.');
-        let is_film = Path::new(&name).extension().is_some_and(|extension| extension == "mp4");
-        if plain && is_film {
+        if plain && FilmKind::of(&name).is_some() {
             return Ok(name);
         }
         if plain {
             let hint = reader.typed(&format!("{}.mp4", name.split('.').next().unwrap_or("film")));
-            return Err(reader.fault(&node.place, format!("a film is an MP4 file; `{name}` is not"), hint));
+            let what = format!("a film is an MP4, GIF or AVI file; `{name}` is none");
+            return Err(reader.fault(&node.place, what, hint));
         }
         let hint = format!("{}; `output` is where the folder is named", reader.typed("flyby.mp4"));
         Err(reader.fault(&node.place, format!("`{name}` is not the name of a file"), hint))
+    }
+}
+
+/// Names of films, one or several.
+struct FileNames;
+
+impl Kind for FileNames {
+    type Value = Vec<String>;
+    fn shape() -> Shape {
+        Shape::Either(vec![FileName::shape(), Shape::List(FileName::shape)])
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Vec<String>> {
+        let Content::List(items) = &node.content else { return Ok(vec![FileName::read(node, reader)?]) };
+        let names = List::<FileName>::read(node, reader)?;
+        if names.is_empty() {
+            let hint = reader.typed("[flyby.mp4, flyby.gif]");
+            return Err(reader.fault(&node.place, "a film without a file", hint));
+        }
+        match (1..names.len()).find(|later| names[..*later].contains(&names[*later])) {
+            None => Ok(names),
+            Some(later) => {
+                let what = format!("`{}` is there twice", names[later]);
+                Err(reader.fault(&items[later].place, what, "each film needs a name of its own"))
+            }
+        }
     }
 }
 
@@ -54,8 +80,8 @@ record! {
     pub Film, "the film" {
         /// Pictures in a second.
         rate: f64 = Rate, default(24.0), "24";
-        /// Its file in the output folder.
-        file: Option<String> = FileName, optional, "flyby.mp4";
+        /// Its file in the output folder, or several: MP4, GIF or AVI by their endings.
+        file: Vec<String> = FileNames, default(Vec::new()), "[flyby.mp4, flyby.gif]";
         /// Whether a video is made, beside the pictures.
         video: bool = Switch, default(true), "off";
     }
@@ -64,7 +90,7 @@ record! {
 impl Film {
     /// The film that is made if nothing is said about it.
     pub(crate) fn usual() -> Self {
-        Self { place: Place::Command, rate: 24.0, file: None, video: true }
+        Self { place: Place::Command, rate: 24.0, file: Vec::new(), video: true }
     }
 }
 
@@ -195,6 +221,11 @@ record! {
         bmp: bool = Switch, default(false), "on";
         /// Whether pictures are written as OpenEXR too, and what of them: `on` for all layers in 32 bits, or a map.
         exr: Option<Exr> = ExrKind, default(None), "{ depth: half, layers: [radiance, doppler] }";
+        /// Whether pictures of the Doppler factor are written: frequency seen over frequency sent as a colour, with a legend. The
+        /// colours mean the same in all pictures of a film.
+        doppler: bool = Switch, default(false), "on";
+        /// Whether pictures of when the light was sent are written (lab time in seconds), in the same way.
+        emission_time: bool = Switch, default(false), "on";
     }
 }
 
@@ -211,6 +242,7 @@ impl Kind for OutputKind {
             return <Output as Kind>::read(node, reader);
         }
         let folder = FilePath::read(node, reader)?;
-        Ok(Output { place: node.place.clone(), folder, png: 8, bmp: false, exr: None })
+        let place = node.place.clone();
+        Ok(Output { place, folder, png: 8, bmp: false, exr: None, doppler: false, emission_time: false })
     }
 }

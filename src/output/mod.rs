@@ -1,22 +1,32 @@
-//! Finished pictures to files: PNG and BMP to look at, `OpenEXR` to compute with, MP4 to play.
+//! Finished pictures to files: PNG and BMP to look at, `OpenEXR` to compute with, MP4, GIF and AVI to play.
 //!
 //! Everything here takes plain numbers and knows nothing of scenes. A file appears under its name whole or
 //! not at all, so a render that was stopped can be resumed by looking at which files are there; and the same
 //! numbers give the same bytes.
 
+mod avi;
 mod bmp;
 mod exr;
+mod false_color;
+mod film;
+mod font;
+mod gif;
 pub mod movie;
 #[cfg(feature = "video")]
 mod mp4;
+mod palette;
 mod png;
 #[cfg(feature = "video")]
 mod reel;
 #[cfg(feature = "video")]
 mod yuv;
 
+pub use self::avi::Avi;
 pub use self::bmp::{read_bmp, write_bmp};
 pub use self::exr::{Channel, ExrForm, Measured, check_exr, exr_texts, write_exr};
+pub use self::false_color::{Scale, false_color, height_with_legend};
+pub use self::film::{FilmKind, Making};
+pub use self::gif::Gif;
 pub use self::movie::Movie;
 pub use self::png::{Picture8, Picture16, ReadPng, eight_of, png_texts, read_png, write_png, write_png16};
 

@@ -66,6 +66,13 @@ impl Movie {
         Ok(Self { reel: Reel::create(path, width as usize, height as usize, rate)? })
     }
 
+    /// The same with something that it says of itself.
+    #[must_use]
+    pub fn commented(mut self, comment: &str) -> Self {
+        self.reel.comment(comment);
+        self
+    }
+
     /// Adds a picture: red, green, blue of every pixel, row by row from the top, encoded as sRGB:
     /// `3 * width * height` bytes.
     pub fn push(&mut self, rgb: &[u8]) -> Result<(), Error> {
@@ -87,6 +94,10 @@ enum Reel {}
 impl Reel {
     fn create(path: &Path, width: usize, height: usize, _rate: f64) -> Result<Self, Error> {
         Err(Error::fault(Place::file(path), format!("no film of {width} x {height} pixels"), ""))
+    }
+
+    fn comment(&mut self, _comment: &str) {
+        match *self {}
     }
 
     fn push(&mut self, _rgb: &[u8]) -> Result<(), Error> {

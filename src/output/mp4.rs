@@ -19,6 +19,8 @@ pub(super) struct Track {
     pub(super) picture: Vec<u8>,
     /// The pictures, in order.
     pub(super) samples: Vec<Sample>,
+    /// What the film says of itself; nothing is written where it is empty.
+    pub(super) comment: String,
 }
 
 /// One coded picture.
@@ -28,21 +30,6 @@ pub(super) struct Sample {
     pub(super) bytes: u32,
     /// Whether decoding can begin here.
     pub(super) key: bool,
-}
-
-/// Timescale and duration of a picture for a rate in pictures a second: exact for whole rates, for rates with
-/// up to three decimals, and for those of American television, which are n * 1000/1001 and commonly
-/// written 23.976, 29.97, 59.94; within 1e-6 / s for others.
-pub(super) fn timing(rate: f64) -> (u32, u32) {
-    let television = (rate * 1.001).round() * 1000.0;
-    if (television / 1001.0 / rate - 1.0).abs() < 2e-5 {
-        return (television as u32, 1001);
-    }
-    let thousandths = (rate * 1000.0).round();
-    if (thousandths - rate * 1000.0).abs() < 1e-6 {
-        return (thousandths as u32, 1000);
-    }
-    ((rate * 1e6).round() as u32, 1_000_000)
 }
 
 /// Writes the file; `data` gives the samples one after the other.
@@ -128,7 +115,19 @@ fn moov(track: &Track, first_offset: u64) -> Vec<u8> {
     let dinf = boxed("dinf", &[&dref]);
     let minf = boxed("minf", &[&vmhd, &dinf, &stbl(track, first_offset)]);
     let trak = boxed("trak", &[&tkhd, &boxed("mdia", &[&mdhd, &hdlr, &minf])]);
-    boxed("moov", &[&mvhd, &trak])
+    boxed("moov", &[&mvhd, &trak, &said(&track.comment)])
+}
+
+/// The comment, where programs look for it (Apple, `QuickTime` metadata).
+fn said(comment: &str) -> Vec<u8> {
+    if comment.is_empty() {
+        return Vec::new();
+    }
+    let data = full("data", 1, &[&[0; 4], comment.as_bytes()]); // UTF-8
+    let length = (8 + data.len()) as u32;
+    let item = [&length.to_be_bytes()[..], b"\xa9cmt", &data].concat();
+    let hdlr = full("hdlr", 0, &[&[0; 4], b"mdirappl", &[0; 9]]);
+    boxed("udta", &[&full("meta", 0, &[&hdlr, &boxed("ilst", &[&item])])])
 }
 
 /// The tables of samples.
@@ -207,18 +206,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rates_are_kept_exactly() {
-        assert_eq!(timing(24.0), (24_000, 1000));
-        assert_eq!(timing(12.5), (12_500, 1000));
-        assert_eq!(timing(23.976), (24_000, 1001));
-        assert_eq!(timing(29.97), (30_000, 1001));
-        assert_eq!(timing(30_000.0 / 1001.0), (30_000, 1001));
-        assert_eq!(timing(59.94), (60_000, 1001));
-        assert_eq!(timing(0.1), (100, 1000));
-        assert_eq!(timing(1.0 / 3.0), (333_333, 1_000_000));
-    }
-
-    #[test]
     fn a_film_longer_than_32_bits_can_count_has_its_duration_in_64() {
         let sample = Sample { bytes: 1, key: true };
         let track = Track {
@@ -229,6 +216,7 @@ mod tests {
             sequence: vec![0x67, 100, 0, 40],
             picture: vec![0x68],
             samples: vec![sample; 5000],
+            comment: String::new(),
         };
         let mut file = Vec::new();
         write(&mut file, &track, &mut vec![7; 5000].as_slice()).unwrap();
@@ -247,6 +235,7 @@ mod tests {
             sequence: vec![0x67, 100, 0, 40],
             picture: vec![0x68],
             samples: vec![Sample { bytes: 10, key: true }],
+            comment: String::new(),
         };
         let cut = write(&mut Vec::new(), &track, &mut [0_u8; 9].as_slice());
         assert_eq!(cut.unwrap_err().kind(), io::ErrorKind::UnexpectedEof);

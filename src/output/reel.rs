@@ -1,5 +1,6 @@
 //! Pictures to coded pictures to a film.
 
+use super::film::timing;
 use super::mp4::{self, Sample, Track};
 use super::yuv::Planes;
 use super::{Temporary, write_whole};
@@ -49,7 +50,7 @@ impl Reel {
         let planes = Planes::new(width, height);
         let encoder = encoder(width * height, rate, FINE)
             .map_err(|source| Error::machine(path, "starting the encoder", source))?;
-        let (timescale, duration) = mp4::timing(rate);
+        let (timescale, duration) = timing(rate);
         let track = Track {
             width: width.next_multiple_of(2) as u16,
             height: height.next_multiple_of(2) as u16,
@@ -58,11 +59,16 @@ impl Reel {
             sequence: Vec::new(),
             picture: Vec::new(),
             samples: Vec::new(),
+            comment: String::new(),
         };
         let (name, spool) = Temporary::beside(path)?;
         let spool = BufWriter::with_capacity(1 << 16, spool);
         let path = path.to_owned();
         Ok(Self { path, width, height, rate, encoder, quantiser: FINE, planes, track, spool, _name: name })
+    }
+
+    pub(super) fn comment(&mut self, comment: &str) {
+        comment.clone_into(&mut self.track.comment);
     }
 
     pub(super) fn push(&mut self, rgb: &[u8]) -> Result<(), Error> {

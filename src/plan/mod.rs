@@ -12,7 +12,6 @@ use crate::exposure::Sampling;
 use crate::film::Reconstruction;
 use crate::inputs::{self, Digest};
 use crate::manifest::{self, Amount, Clock, Filter, Manifest};
-use crate::output::movie;
 use crate::scene::Scene;
 use crate::spacetime::Course;
 use crate::spectrum::{Source, Spectrum};
@@ -63,8 +62,8 @@ pub struct Plan {
     pub outputs: Outputs,
     /// The folder for all files.
     pub folder: PathBuf,
-    /// The film's file in it.
-    pub film_file: String,
+    /// The film's files in it, each of another kind or name.
+    pub film_files: Vec<String>,
     /// Seconds in a metre of light travel: 1/c of this manifest.
     pub seconds_per_metre: f64,
     /// Written into every picture: what it was made from.
@@ -123,9 +122,11 @@ impl Plan {
         let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
         let picture = &manifest.picture;
         let film = manifest.film.as_ref().filter(|film| film.video);
-        let file = film.and_then(|film| film.file.clone()).unwrap_or_else(|| format!("{stem}.mp4"));
+        let files = film.map(|film| film.file.clone()).filter(|files| !files.is_empty());
+        let files = files.unwrap_or_else(|| vec![format!("{stem}.mp4")]);
         let exposures = exposures(&manifest.exposures, scene);
-        let film_rate = film.map(|film| film.rate).filter(|_| film_fits(manifest, exposures.len(), report));
+        let film_files = outputs::films(film, files, exposures.len(), manifest, report);
+        let film_rate = film.map(|film| film.rate).filter(|_| !film_files.is_empty());
         limits::check(manifest, scene, &exposures, report);
         Self {
             exposures,
@@ -148,38 +149,13 @@ impl Plan {
             film_rate,
             outputs: Outputs::of(&manifest.output),
             folder: manifest.output.folder.clone(),
-            film_file: file,
+            film_files,
             seconds_per_metre: 1.0 / manifest.light_speed,
             text: vec![("Software", VERSION.to_owned()), ("Source", stem.into_owned())],
             inputs: report.inputs.manifest.map(|manifest| (manifest, report.inputs.of_files())),
             restart: false,
         }
     }
-}
-
-/// Whether a film is to be made of so many exposures; a fault where it cannot be.
-fn film_fits(manifest: &Manifest, exposures: usize, report: &mut Report) -> bool {
-    if exposures < 2 {
-        return false;
-    }
-    let place = &manifest.picture.place;
-    if !movie::AVAILABLE {
-        let hint = "join the pictures with another program, such as ffmpeg";
-        report.warn(place.clone(), "this build writes no films, only their pictures", hint);
-        return false;
-    }
-    let (width, height) = manifest.picture.size;
-    let (long, short) = (width.max(height), width.min(height));
-    let fits = short >= movie::SMALLEST && long <= movie::LARGEST.0 && short <= movie::LARGEST.1;
-    if !fits {
-        let what = format!("a film cannot be {width} x {height} pixels (16 x 16 to 3840 x 2160)");
-        report.fault(
-            place.clone(),
-            what,
-            "choose another size, or write `film: { video: off }` for pictures alone",
-        );
-    }
-    fits
 }
 
 fn exposures(written: &manifest::Exposures, scene: &Scene) -> Vec<Exposure> {

@@ -1,8 +1,9 @@
 //! The files of a film.
 
 use super::Plan;
+use crate::error::Report;
 use crate::manifest::{self, Depth, Layer};
-use crate::output::exposure_name;
+use crate::output::{FilmKind, exposure_name, movie};
 use std::path::PathBuf;
 
 /// A file that an exposure has. The last one in order is written last: with it the exposure is there.
@@ -12,19 +13,25 @@ pub enum Picture {
     Exr,
     /// BMP.
     Bmp,
+    /// The Doppler factor in false colours, PNG.
+    Doppler,
+    /// When the light was sent in false colours, PNG.
+    EmissionTime,
     /// PNG, which is always written.
     Png,
 }
 
 impl Picture {
     /// Every kind.
-    pub const ALL: [Self; 3] = [Self::Exr, Self::Bmp, Self::Png];
+    pub const ALL: [Self; 5] = [Self::Exr, Self::Bmp, Self::Doppler, Self::EmissionTime, Self::Png];
 
     /// How names of such files end.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Exr => "exr",
             Self::Bmp => "bmp",
+            Self::Doppler => "doppler.png",
+            Self::EmissionTime => "emission_time.png",
             Self::Png => "png",
         }
     }
@@ -39,6 +46,10 @@ pub struct Outputs {
     pub bmp: bool,
     /// What OpenEXR files hold, if they are wanted.
     pub exr: Option<Measured>,
+    /// Whether pictures of the Doppler factor are wanted.
+    pub doppler: bool,
+    /// Whether pictures of emission times are wanted.
+    pub emission_time: bool,
 }
 
 /// What an OpenEXR file holds.
@@ -54,7 +65,13 @@ impl Outputs {
     /// What a manifest asks for.
     pub(super) fn of(output: &manifest::Output) -> Self {
         let measured = |exr: &manifest::Exr| Measured { depth: exr.depth, layers: exr.layers.clone() };
-        Self { sixteen: output.png == 16, bmp: output.bmp, exr: output.exr.as_ref().map(measured) }
+        Self {
+            sixteen: output.png == 16,
+            bmp: output.bmp,
+            exr: output.exr.as_ref().map(measured),
+            doppler: output.doppler,
+            emission_time: output.emission_time,
+        }
     }
 
     /// The files of each exposure, in the order in which they are written.
@@ -62,6 +79,8 @@ impl Outputs {
         let wanted = |picture: &Picture| match picture {
             Picture::Exr => self.exr.is_some(),
             Picture::Bmp => self.bmp,
+            Picture::Doppler => self.doppler,
+            Picture::EmissionTime => self.emission_time,
             Picture::Png => true,
         };
         Picture::ALL.into_iter().filter(wanted).collect()
@@ -73,4 +92,29 @@ impl Plan {
     pub fn picture(&self, index: usize, picture: Picture) -> PathBuf {
         self.folder.join(exposure_name(index, self.exposures.len())).with_extension(picture.ending())
     }
+}
+
+/// Those of the films that can be made of so many exposures; a fault where one cannot be.
+pub(super) fn films(
+    film: Option<&manifest::Film>,
+    mut files: Vec<String>,
+    exposures: usize,
+    manifest: &manifest::Manifest,
+    report: &mut Report,
+) -> Vec<String> {
+    let Some(film) = film.filter(|_| exposures > 1) else { return Vec::new() };
+    let place = &manifest.picture.place;
+    if !movie::AVAILABLE && files.iter().any(|file| FilmKind::of(file) == Some(FilmKind::Mp4)) {
+        let hint = "write a GIF or AVI film, or join the pictures with another program, such as ffmpeg";
+        report.warn(place.clone(), "this build writes no MP4 films, only their pictures", hint);
+        files.retain(|file| FilmKind::of(file) != Some(FilmKind::Mp4));
+    }
+    files.retain(|file| {
+        let refusal = FilmKind::of(file).and_then(|kind| kind.refusal(manifest.picture.size, film.rate));
+        if let Some((what, hint)) = &refusal {
+            report.fault(place.clone(), what.clone(), *hint);
+        }
+        refusal.is_none()
+    });
+    files
 }

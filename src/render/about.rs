@@ -53,3 +53,8 @@ fn number(value: f64) -> String {
 fn numbers(of: DVec3) -> String {
     of.to_array().map(number).join(" ")
 }
+
+/// Keywords and texts, a line each.
+pub(super) fn lines(texts: &[(&str, String)]) -> String {
+    texts.iter().map(|(key, value)| format!("{key}: {value}")).collect::<Vec<_>>().join("\n")
+}

@@ -1,5 +1,6 @@
 //! From a developed picture to its files, and back from those that are there.
 
+use super::scales::Scales;
 use super::{Print, layers};
 use crate::error::Error;
 use crate::output::{self, Picture8, Picture16, ReadPng};
@@ -8,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Writes all files of an exposure, the PNG last: where that is, all are.
-pub(super) fn write(plan: &Plan, print: &Print) -> Result<(), Error> {
+pub(super) fn write(plan: &Plan, print: &Print, scales: Option<&Scales>) -> Result<(), Error> {
     let (width, height) = (print.negative.width, print.negative.height);
     let (rgb, text) = (&print.rgb, &print.text);
     for picture in plan.outputs.pictures() {
@@ -20,6 +21,16 @@ pub(super) fn write(plan: &Plan, print: &Print) -> Result<(), Error> {
                 }
             }
             Picture::Bmp => output::write_bmp(&path, &Picture8 { width, height, rgb, text })?,
+            Picture::Doppler | Picture::EmissionTime => {
+                if let Some(scales) = scales {
+                    let scale =
+                        if picture == Picture::Doppler { scales.doppler } else { scales.emission_time };
+                    let values = layers::shown(plan, print, picture);
+                    let rgb = &output::false_color(&values, width as usize, &scale);
+                    let height = output::height_with_legend(width, height);
+                    output::write_png(&path, &Picture8 { width, height, rgb, text })?;
+                }
+            }
             Picture::Png => match &print.fine {
                 Some(rgb) => output::write_png16(&path, &Picture16 { width, height, rgb, text })?,
                 None => output::write_png(&path, &Picture8 { width, height, rgb, text })?,
@@ -34,7 +45,7 @@ pub(super) fn texts(path: &Path, picture: Picture) -> BTreeMap<String, String> {
     match picture {
         Picture::Exr => output::exr_texts(path),
         Picture::Bmp => BTreeMap::new(),
-        Picture::Png => output::png_texts(path),
+        Picture::Png | Picture::Doppler | Picture::EmissionTime => output::png_texts(path),
     }
 }
 
@@ -57,6 +68,10 @@ pub(super) fn are_whole(plan: &Plan, index: usize) -> bool {
             let path = plan.picture(index, picture);
             match picture {
                 Picture::Png => true,
+                Picture::Doppler | Picture::EmissionTime => {
+                    let size = (size.0, output::height_with_legend(size.0, size.1));
+                    output::read_png(&path, size).is_ok_and(|png| !png.sixteen)
+                }
                 Picture::Bmp => output::read_bmp(&path, size).is_ok_and(|rgb| rgb == png.rgb),
                 Picture::Exr => {
                     let form = plan.outputs.exr.as_ref().map(|wanted| layers::form(plan, wanted));

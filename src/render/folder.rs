@@ -41,7 +41,9 @@ pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Ste
     }
     let lock = lock(plan, tell)?;
     if lock.is_some() {
-        output::remove_parts(&plan.folder, |name| picture(name).is_some() || name == plan.film_file);
+        output::remove_parts(&plan.folder, |name| {
+            picture(name).is_some() || plan.film_files.iter().any(|film| film == name)
+        });
     }
     let there = there(plan)?;
     let mut kept = BTreeSet::new();

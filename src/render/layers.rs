@@ -2,11 +2,11 @@
 
 use super::Print;
 use crate::color::RGB_FROM_XYZ;
-use crate::exposure::first_colors;
+use crate::exposure::{first_colors, first_hits};
 use crate::manifest::{Depth, Layer};
 use crate::observer::View;
 use crate::output::{Channel, ExrForm, Measured};
-use crate::plan::{self, Plan};
+use crate::plan::{self, Picture, Plan};
 use crate::scene::Scene;
 use crate::trace::First;
 use glam::{DVec2, DVec3};
@@ -22,8 +22,15 @@ pub(super) struct Seen {
 }
 
 /// What is seen at each pixel's centre.
-pub(super) fn seen(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<Seen>> {
-    let firsts = first_colors(scene, view, width, height);
+pub(super) fn seen(scene: &Scene, plan: &Plan, view: &View) -> Vec<Option<Seen>> {
+    let (width, height) = (plan.sampling.width, plan.sampling.height);
+    let colored = plan.outputs.exr.as_ref().is_some_and(|exr| exr.layers.contains(&Layer::Albedo));
+    let firsts: Vec<Option<(First, DVec3)>> = if colored {
+        first_colors(scene, view, width, height)
+    } else {
+        let firsts = first_hits(scene, view, width, height).into_iter();
+        firsts.map(|first| first.map(|first| (first, DVec3::ZERO))).collect()
+    };
     let seen = |(number, first): (usize, Option<(First, DVec3)>)| {
         let (first, albedo) = first?;
         let (column, row) = (number % width as usize, number / width as usize);
@@ -38,9 +45,21 @@ pub(super) fn seen(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<O
     firsts.into_iter().enumerate().map(seen).collect()
 }
 
-/// Of which layers the ray to a pixel's centre tells.
-pub(super) fn asks_rays(wanted: &plan::Measured) -> bool {
-    wanted.layers.iter().any(|layer| !matches!(layer, Layer::Radiance | Layer::Xyz))
+/// Whether what is wanted is told by rays to the pixels' centres.
+pub(super) fn asks_rays(plan: &Plan) -> bool {
+    let outputs = &plan.outputs;
+    let measured = |layer: &Layer| !matches!(layer, Layer::Radiance | Layer::Xyz);
+    let exr = outputs.exr.as_ref().is_some_and(|exr| exr.layers.iter().any(measured));
+    exr || outputs.doppler || outputs.emission_time
+}
+
+/// A number of what is seen at each pixel's centre, for false colours.
+pub(super) fn shown(plan: &Plan, print: &Print, picture: Picture) -> Vec<Option<f64>> {
+    let number = |seen: &Seen| match picture {
+        Picture::EmissionTime => seen.first.emission.t * plan.seconds_per_metre,
+        _ => seen.first.doppler.factor(),
+    };
+    print.seen.as_deref().unwrap_or(&[]).iter().map(|seen| seen.as_ref().map(number)).collect()
 }
 
 /// What the file of any exposure is like.

@@ -4,15 +4,17 @@ mod about;
 mod files;
 mod folder;
 mod layers;
+mod scales;
 
 use crate::error::Error;
 use crate::exposure::{Sampling, Uncertainty, expose, expose_settled};
 use crate::film::{Brightness, Development, Negative};
 use crate::observer::View;
-use crate::output::{self, Movie};
+use crate::output::{self, FilmKind, Making};
 use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
-use std::path::PathBuf;
+use scales::Scales;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 
 /// What has been done.
@@ -79,12 +81,15 @@ pub fn render(
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
     let development = development(scene, plan);
     tell(Step::Metered(development.white));
-    let movie = film_path(plan, exposures.len()).map(|path| start(plan, &path)).transpose()?;
+    let scales = scales::of(scene, plan);
+    let comment = about::lines(&about::of_film(plan, development.white));
+    let start = |path: PathBuf| Ok((start(plan, &path, &comment)?, path));
+    let films = film_paths(plan, exposures.len()).into_iter().map(start).collect::<Result<_, Error>>()?;
 
     // Files are written and the film encoded beside the tracing of the next picture.
     std::thread::scope(|scope| {
         let (prints, inbox) = sync_channel(1);
-        let writer = scope.spawn(move || file_all(plan, movie, &inbox, tell));
+        let writer = scope.spawn(move || file_all(plan, scales.as_ref(), films, &inbox, tell));
         let mut last = None;
         for exposure in exposures {
             if folder.kept.contains(&exposure.index) {
@@ -110,14 +115,17 @@ pub fn render(
     })
 }
 
-/// Where the film goes, if there is to be one: only a whole film is made.
-pub fn film_path(plan: &Plan, exposures: usize) -> Option<PathBuf> {
-    let whole = exposures == plan.exposures.len() && exposures > 1;
-    (whole && plan.film_rate.is_some()).then(|| plan.folder.join(&plan.film_file))
+/// Where the films go, if there are to be any: only of all exposures they are made.
+pub fn film_paths(plan: &Plan, exposures: usize) -> Vec<PathBuf> {
+    let whole = exposures == plan.exposures.len() && exposures > 1 && plan.film_rate.is_some();
+    plan.film_files.iter().filter(|_| whole).map(|file| plan.folder.join(file)).collect()
 }
 
-fn start(plan: &Plan, path: &std::path::Path) -> Result<Movie, Error> {
-    Movie::create(path, plan.sampling.width, plan.sampling.height, plan.film_rate.unwrap_or(24.0))
+fn start(plan: &Plan, path: &Path, comment: &str) -> Result<Making, Error> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let kind = FilmKind::of(&name).unwrap_or(FilmKind::Mp4);
+    let size = (plan.sampling.width, plan.sampling.height);
+    Making::create(kind, path, size, plan.film_rate.unwrap_or(24.0), comment)
 }
 
 fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
@@ -146,8 +154,7 @@ fn print(
     (negative, settling): (Negative, Option<Settling>),
 ) -> Print {
     let view = view(scene, plan, exposure);
-    let asked = plan.outputs.exr.as_ref().is_some_and(layers::asks_rays);
-    let seen = asked.then(|| layers::seen(scene, &view, negative.width, negative.height));
+    let seen = layers::asks_rays(plan).then(|| layers::seen(scene, plan, &view));
     let fine = plan.outputs.sixteen.then(|| development.develop_finely(&negative));
     let rgb = match &fine {
         Some(fine) => fine.iter().map(|value| output::eight_of(*value)).collect(),
@@ -160,7 +167,8 @@ fn print(
 
 fn file_all(
     plan: &Plan,
-    mut movie: Option<Movie>,
+    scales: Option<&Scales>,
+    mut films: Vec<(Making, PathBuf)>,
     inbox: &Receiver<Sheet>,
     mut tell: impl FnMut(Step),
 ) -> Result<(), Error> {
@@ -168,23 +176,26 @@ fn file_all(
         let print = match sheet {
             Sheet::New(print) => print,
             Sheet::Kept(index) => {
-                if let Some(movie) = &mut movie {
-                    movie.push(&files::read(plan, index)?)?;
+                if !films.is_empty() {
+                    let rgb = files::read(plan, index)?;
+                    films.iter_mut().try_for_each(|(film, _)| film.push(&rgb))?;
                 }
                 continue;
             }
         };
-        files::write(plan, &print)?;
-        if let Some(movie) = &mut movie {
-            movie.push(&print.rgb)?;
-        }
+        files::write(plan, &print, scales)?;
+        films.iter_mut().try_for_each(|(film, _)| film.push(&print.rgb))?;
         tell(Step::Picture(plan.picture(print.exposure.index, Picture::Png), print.settling));
     }
-    if let Some(movie) = movie {
-        movie.finish()?;
-        tell(Step::Film(plan.folder.join(&plan.film_file)));
+    // One that fails leaves the others as they are.
+    let mut done = Ok(());
+    for (film, path) in films {
+        match film.finish(&|index| files::read(plan, index)) {
+            Ok(()) => tell(Step::Film(path)),
+            Err(error) => done = done.and(Err(error)),
+        }
     }
-    Ok(())
+    done
 }
 
 /// Columns of the small pictures by which a film is metered, and how many there are at most.
