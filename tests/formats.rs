@@ -259,3 +259,39 @@ fn false_colours_mean_the_same_in_all_pictures_of_a_film_and_in_a_part_of_it() {
         assert_eq!(std::fs::read(&path).unwrap(), bytes);
     }
 }
+
+/// A plan, and what is wrong with it.
+fn planned(text: &str) -> (Plan, Vec<String>) {
+    let path = std::path::Path::new("film.yaml");
+    let mut report = Report::default();
+    let manifest = manifest::parse(path, text, &mut report).unwrap();
+    let scene = compose(&manifest, path, &mut report).unwrap();
+    let plan = Plan::of(&manifest, &scene, path, &mut report);
+    (plan, report.faults.iter().map(|fault| fault.to_string()).collect())
+}
+
+#[test]
+fn a_spectrum_needs_more_than_three_wavelengths_and_the_same_in_all_pixels() {
+    let still = SCENE.replace("velocity: 0.6 0 0 c, ", "").replace("velocity: 0.3 0 -0.2 c, ", "");
+    let exr = |layers: &str| format!("output: {{ folder: out, exr: {{ layers: [{layers}] }} }}\n");
+    let (plain, _) = planned(&format!("{still}{}", exr("radiance")));
+    let (spectral, faults) = planned(&format!("{still}{}", exr("radiance, spectrum")));
+    assert_eq!((plain.sampling.wavelengths, spectral.sampling.wavelengths), (3, 16));
+    assert_eq!(faults, [""; 0]);
+    let settled = still.replace("samples: 1", "tolerance: 1");
+    assert_eq!(planned(&format!("{settled}{}", exr("radiance"))).1, [""; 0]);
+    let (_, faults) = planned(&format!("{settled}{}", exr("radiance, spectrum")));
+    assert!(faults[0].contains("a spectrum needs the same wavelengths in all pixels"), "{faults:?}");
+    assert!(faults[0].contains("leave `tolerance` out"), "{faults:?}");
+}
+
+#[test]
+fn films_that_cannot_be_are_faults_of_the_manifest() {
+    let film = |film: &str, size: &str| {
+        let text = SCENE.replace("size: 64 48", size);
+        planned(&format!("{text}film: {film}\noutput: out\n")).1
+    };
+    assert_eq!(film("{ rate: 50, file: [a.gif, a.avi] }", "size: 8 8"), [""; 0]);
+    assert!(film("{ rate: 60, file: [a.gif, a.avi] }", "size: 64 48")[0].contains("at most 50"));
+    assert!(film("{ file: [a.gif, a.mp4] }", "size: 8 8")[0].contains("a film cannot be 8 x 8 pixels"));
+}

@@ -170,7 +170,7 @@ mod an_exr {
             Channel { half: true, ..Channel::new("B", ramp(100.0)) },
             Channel::new("body", (-1_i16..4).cycle().take(count).map(f32::from).collect()),
         ];
-        Measured { width: SIZE.0, height: SIZE.1, channels, white_luminance: 80.0, text }
+        Measured { width: SIZE.0, height: SIZE.1, channels, white_luminance: 80.0, spectral: true, text }
     }
 
     fn text() -> [(&'static str, String); 2] {

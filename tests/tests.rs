@@ -45,6 +45,7 @@ mod shadow;
 mod sky;
 mod solid;
 mod solids;
+mod spectral;
 mod spectrum;
 mod support;
 mod surroundings;

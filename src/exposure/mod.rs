@@ -1,15 +1,18 @@
 //! One picture: from sight rays to a negative.
 
 mod settle;
+mod spectral;
 
 pub use settle::{Settled, Uncertainty, expose_settled};
+pub use spectral::{Bands, expose_spectral, middles};
 
 use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::scene::Scene;
+use crate::spacetime::SightRay;
 use crate::spectrum::Wavelengths;
 use crate::surface::{Look, Surface};
-use crate::trace::{Cone, First, Lit};
+use crate::trace::{Cone, First, Light, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -63,32 +66,59 @@ pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
 }
 
 fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
-    let wavelengths = Wavelengths::<N>::new();
-    let offsets = sampling.reconstruction.offsets(sampling.samples);
-    let phases: Vec<f64> = (0..sampling.samples).map(phase).collect();
-    let share = 1.0 / f64::from(sampling.samples);
-    let spacing = share.sqrt();
-    let expose_pixel = |column: usize, row: usize| {
+    let exposing = Exposing::<N>::new(view, sampling);
+    let xyz = by_pixel(sampling.width, sampling.height, |column, row| {
+        exposing.pixel(column, row, |ray, cone| lit.seen_within(ray, cone, &exposing.wavelengths)).0
+    });
+    Negative { width: sampling.width, height: sampling.height, xyz }
+}
+
+/// What is the same for all pixels of a picture.
+struct Exposing<'a, const N: usize> {
+    view: &'a View,
+    wavelengths: Wavelengths<N>,
+    offsets: Vec<DVec2>,
+    phases: Vec<f64>,
+    share: f64,
+}
+
+impl<'a, const N: usize> Exposing<'a, N> {
+    fn new(view: &'a View, sampling: &Sampling) -> Self {
+        Self {
+            view,
+            wavelengths: Wavelengths::new(),
+            offsets: sampling.reconstruction.offsets(sampling.samples),
+            phases: (0..sampling.samples).map(phase).collect(),
+            share: 1.0 / f64::from(sampling.samples),
+        }
+    }
+
+    /// The mean of a pixel's samples: XYZ, and the radiances.
+    fn pixel(
+        &self,
+        column: usize,
+        row: usize,
+        mut seen: impl FnMut(&SightRay, Cone) -> Light<N>,
+    ) -> ([f32; 3], [f64; N]) {
+        let spacing = self.share.sqrt();
         let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
-        for (offset, phase) in offsets.iter().zip(&phases) {
+        for (offset, phase) in self.offsets.iter().zip(&self.phases) {
             let place = centre + *offset;
-            if !view.shows(place) {
+            if !self.view.shows(place) {
                 continue;
             }
-            let (ray, cone) = view.sight(place, spacing);
-            let light = lit.seen_within(&ray, Cone { phase: *phase, ..cone }, &wavelengths);
+            let (ray, cone) = self.view.sight(place, spacing);
+            let light = seen(&ray, Cone { phase: *phase, ..cone });
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
                 *sum += value;
             }
             lines += light.lines;
         }
-        let xyz = ((wavelengths.xyz(&radiance) + lines) * share).min(DVec3::splat(BRIGHTEST));
-        xyz.as_vec3().to_array()
-    };
-    let xyz = by_pixel(sampling.width, sampling.height, expose_pixel);
-    Negative { width: sampling.width, height: sampling.height, xyz }
+        let xyz = ((self.wavelengths.xyz(&radiance) + lines) * self.share).min(DVec3::splat(BRIGHTEST));
+        (xyz.as_vec3().to_array(), radiance.map(|value| value * self.share))
+    }
 }
 
 /// The phase of a pixel's sample: where colours are parted each takes other wavelengths. Sobol's third dimension, as places in the
@@ -104,22 +134,27 @@ fn phase(number: u32) -> f64 {
 
 /// What stands first in the way at each pixel's centre.
 pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
-    let lit = scene.lit().seen_from(view.tetrad.event);
-    let first = |column: usize, row: usize| {
-        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-        if view.shows(place) { lit.first(&view.ray(place)) } else { None }
-    };
-    by_pixel(width, height, first)
+    first_and(scene, view, (width, height), |lit, ray| lit.first(ray))
 }
 
 /// The same with the colours of surfaces by daylight at rest, linear sRGB.
 pub fn first_colors(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<(First, DVec3)>> {
-    let lit = scene.lit().seen_from(view.tetrad.event);
     let color = |surface: Option<&Surface>, look: &Look<'_>| {
         surface.map_or(DVec3::ZERO, |surface| surface.albedo(look))
     };
+    first_and(scene, view, (width, height), |lit, ray| lit.first_and(ray, color))
+}
+
+fn first_and<T: Send + Clone>(
+    scene: &Scene,
+    view: &View,
+    (width, height): (u32, u32),
+    of: impl Fn(&Lit<'_>, &SightRay) -> Option<T> + Sync,
+) -> Vec<Option<T>> {
+    let lit = scene.lit().seen_from(view.tetrad.event);
     let first = |column: usize, row: usize| {
-        lit.first_and(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)), color)
+        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        if view.shows(place) { of(&lit, &view.ray(place)) } else { None }
     };
     by_pixel(width, height, first)
 }

@@ -125,6 +125,8 @@ words! {
         "material" => Material;
         /// The colour of its surface by daylight at rest.
         "albedo" => Albedo;
+        /// The spectral radiance.
+        "spectrum" => Spectrum;
     }
 }
 
@@ -170,8 +172,9 @@ record! {
         /// Which layers: `radiance` (`R G B`), `xyz` (`cie.X cie.Y cie.Z`), `doppler` (frequency seen over frequency emitted),
         /// `emission_time` (lab, s), `distance` (m, as the observer sees it), `normal` (`normal.X normal.Y normal.Z`, of what is
         /// seen as it appears, in the camera's axes: right, up, backward), `body` (its number from 0), `material` (a number for
-        /// each body's material), `albedo` (`albedo.R albedo.G albedo.B`, at rest in daylight). Where no body is, `body` and
-        /// `material` are -1 and the others 0. All unless said.
+        /// each body's material), `albedo` (`albedo.R albedo.G albedo.B`, at rest in daylight), `spectrum` (`S0.409,375nm` and so on: as many parts of
+        /// 400 to 700 nm as `wavelengths`, W/m2/sr/nm, by the layout of Fichet, Pacanowski and Wilkie, JCGT 10(3)). Where no body is, `body` and
+        /// `material` are -1 and the others 0. Unless said, all but `spectrum`.
         layers: Vec<Layer> = Layers, default(Layer::USUAL.to_vec()), "[radiance, doppler, distance]";
     }
 }
@@ -219,7 +222,7 @@ record! {
         png: u32 = Bits, default(8), "16";
         /// Whether pictures are written as BMP too (8 bits).
         bmp: bool = Switch, default(false), "on";
-        /// Whether pictures are written as OpenEXR too, and what of them: `on` for all layers in 32 bits, or a map.
+        /// Whether pictures are written as OpenEXR too, and what of them: `on` for all layers but `spectrum` in 32 bits, or a map.
         exr: Option<Exr> = ExrKind, default(None), "{ depth: half, layers: [radiance, doppler] }";
         /// Whether pictures of the Doppler factor are written: frequency seen over frequency sent as a colour, with a legend. The
         /// colours mean the same in all pictures of a film.

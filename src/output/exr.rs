@@ -4,8 +4,8 @@ use super::write_whole;
 use crate::error::Error;
 use exr::meta::attribute::{Chromaticities, Text};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, ChannelDescription, Compression, Encoding, FlatSamples, Image, Layer,
-    LayerAttributes, LineOrder, ReadChannels, ReadLayers, SampleType, Vec2, WritableImage, f16,
+    AnyChannel, AnyChannels, AttributeValue, Blocks, ChannelDescription, Compression, Encoding, FlatSamples,
+    Image, Layer, LayerAttributes, LineOrder, ReadChannels, ReadLayers, SampleType, Vec2, WritableImage, f16,
 };
 use std::collections::BTreeMap;
 use std::io;
@@ -23,6 +23,9 @@ pub struct Measured<'a> {
     /// Luminance in cd/m² of `R`, `G`, `B` = (1, 1, 1); attribute `whiteLuminance`. With it a reader gets from them to
     /// absolute units.
     pub white_luminance: f32,
+    /// Whether channels hold a spectrum by the layout of Fichet, Pacanowski and Wilkie (JCGT 10(3), 2021): `S0.409,375nm` in
+    /// W m⁻² sr⁻¹ nm⁻¹.
+    pub spectral: bool,
     /// What is written into the attribute `comments`, one line `keyword: text` each (UTF-8).
     pub text: &'a [(&'a str, String)],
 }
@@ -75,6 +78,11 @@ impl Measured<'_> {
             let lines: Vec<String> = self.text.iter().map(|(key, value)| format!("{key}: {value}")).collect();
             attributes.comments = Some(text(&lines.join("\n")));
         }
+        if self.spectral {
+            // One here and one among those of the image, for the same reason.
+            let units = AttributeValue::Text(text("W.m^-2.sr^-1.nm^-1"));
+            attributes.other.insert(text("emissiveUnits"), units);
+        }
         attributes
     }
 }
@@ -90,7 +98,7 @@ pub fn write_exr(path: &Path, measured: Measured<'_>) -> Result<(), Error> {
         let what = "the channels have not one value for each pixel";
         return Err(Error::machine(path, "writing", io::Error::new(io::ErrorKind::InvalidInput, what)));
     }
-    let attributes = measured.attributes();
+    let (attributes, spectral) = (measured.attributes(), measured.spectral);
     let channel = |channel: Channel| AnyChannel::new(&*channel.name.clone(), channel.samples());
     let list = measured.channels.into_iter().map(channel).collect();
     let encoding = Encoding {
@@ -100,6 +108,10 @@ pub fn write_exr(path: &Path, measured: Measured<'_>) -> Result<(), Error> {
     };
     let mut image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(list)));
     image.attributes.chromaticities = Some(REC709);
+    if spectral {
+        let version = AttributeValue::Text(text("1.0"));
+        image.attributes.other.insert(text("spectralLayoutVersion"), version);
+    }
     write_whole(path, |file| image.write().to_buffered(file).map_err(machine))
 }
 

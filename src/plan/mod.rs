@@ -106,8 +106,10 @@ impl Plan {
     /// By what its pictures are known.
     pub fn fingerprint(&self) -> Option<Fingerprint> {
         let (manifest, files) = self.inputs?;
-        // Flags may have taken the tolerance away.
-        let manifest = inputs::digest([&manifest[..], format!("{:?}", self.tolerance).as_bytes()].concat());
+        // Flags may have taken the tolerance away; and a spectrum is of more than three wavelengths.
+        let spectrum = if self.outputs.spectrum() { " spectrum" } else { "" };
+        let more = format!("{:?}{spectrum}", self.tolerance);
+        let manifest = inputs::digest([&manifest[..], more.as_bytes()].concat());
         let short = |digest: Digest| {
             let [a, b, c, d, e, f, g, h, ..] = digest;
             format!("{:016x}", u64::from_be_bytes([a, b, c, d, e, f, g, h]))
@@ -128,6 +130,9 @@ impl Plan {
         let film_files = outputs::films(film, files, exposures.len(), manifest, report);
         let film_rate = film.map(|film| film.rate).filter(|_| !film_files.is_empty());
         limits::check(manifest, scene, &exposures, report);
+        let outputs = Outputs::of(&manifest.output);
+        outputs::check_spectrum(manifest, &outputs, report);
+        let three = needs::three_wavelengths(scene).yes && !outputs.spectrum();
         Self {
             exposures,
             sampling: Sampling {
@@ -139,7 +144,7 @@ impl Plan {
                     Filter::Tent => Reconstruction::Tent,
                     Filter::Box => Reconstruction::Box,
                 },
-                wavelengths: if needs::three_wavelengths(scene).yes { 3 } else { picture.wavelengths },
+                wavelengths: if three { 3 } else { picture.wavelengths },
             },
             tolerance: picture.tolerance,
             still: needs::still(scene).yes,
@@ -147,7 +152,7 @@ impl Plan {
             headroom: picture.headroom,
             stops: picture.stops,
             film_rate,
-            outputs: Outputs::of(&manifest.output),
+            outputs,
             folder: manifest.output.folder.clone(),
             film_files,
             seconds_per_metre: 1.0 / manifest.light_speed,

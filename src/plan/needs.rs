@@ -175,7 +175,10 @@ pub fn parts(scene: &Scene, plan: &Plan) -> Vec<Part> {
         (3, _) | (_, None) => format!("{} wavelengths", plan.sampling.wavelengths),
         (_, Some(_)) => "16 to 64 wavelengths, as each pixel needs".to_owned(),
     };
-    parts.push(Part::new("spectra", wavelengths, three_wavelengths(scene).why));
+    let three = three_wavelengths(scene);
+    let why =
+        if three.yes && plan.outputs.spectrum() { "their spectrum is written".into() } else { three.why };
+    parts.push(Part::new("spectra", wavelengths, why));
     parts.push(lines(scene));
     let dispersing = scene.media.iter().any(|medium| medium.index.disperses());
     parts.push(if dispersing {

@@ -62,6 +62,11 @@ pub struct Measured {
 }
 
 impl Outputs {
+    /// Whether the spectrum of pictures is wanted.
+    pub fn spectrum(&self) -> bool {
+        self.exr.as_ref().is_some_and(|exr| exr.layers.contains(&Layer::Spectrum))
+    }
+
     /// What a manifest asks for.
     pub(super) fn of(output: &manifest::Output) -> Self {
         let measured = |exr: &manifest::Exr| Measured { depth: exr.depth, layers: exr.layers.clone() };
@@ -117,4 +122,16 @@ pub(super) fn films(
         refusal.is_none()
     });
     files
+}
+
+/// A fault where a spectrum is wanted of pictures whose pixels have other wavelengths one by one.
+pub(super) fn check_spectrum(manifest: &manifest::Manifest, outputs: &Outputs, report: &mut Report) {
+    if outputs.spectrum()
+        && manifest.picture.tolerance.is_some()
+        && let Some(exr) = &manifest.output.exr
+    {
+        let what = "a spectrum needs the same wavelengths in all pixels: with a `tolerance` each has its own";
+        let hint = "leave `tolerance` out and say `samples` and `wavelengths`, or leave out `spectrum`";
+        report.fault(exr.place.clone(), what, hint);
+    }
 }

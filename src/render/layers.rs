@@ -2,7 +2,7 @@
 
 use super::Print;
 use crate::color::RGB_FROM_XYZ;
-use crate::exposure::{first_colors, first_hits};
+use crate::exposure::{first_colors, first_hits, middles};
 use crate::manifest::{Depth, Layer};
 use crate::observer::View;
 use crate::output::{Channel, ExrForm, Measured};
@@ -48,7 +48,7 @@ pub(super) fn seen(scene: &Scene, plan: &Plan, view: &View) -> Vec<Option<Seen>>
 /// Whether what is wanted is told by rays to the pixels' centres.
 pub(super) fn asks_rays(plan: &Plan) -> bool {
     let outputs = &plan.outputs;
-    let measured = |layer: &Layer| !matches!(layer, Layer::Radiance | Layer::Xyz);
+    let measured = |layer: &Layer| !matches!(layer, Layer::Radiance | Layer::Xyz | Layer::Spectrum);
     let exr = outputs.exr.as_ref().is_some_and(|exr| exr.layers.iter().any(measured));
     exr || outputs.doppler || outputs.emission_time
 }
@@ -65,16 +65,17 @@ pub(super) fn shown(plan: &Plan, print: &Print, picture: Picture) -> Vec<Option<
 /// What the file of any exposure is like.
 pub(super) fn form(plan: &Plan, wanted: &plan::Measured) -> ExrForm {
     let (width, height) = (plan.sampling.width, plan.sampling.height);
-    let channel = |name: &&str| ((*name).to_owned(), wanted.depth == Depth::Half && is_light(name));
-    let mut channels: Vec<_> = wanted.layers.iter().flat_map(|layer| names(*layer)).map(channel).collect();
+    let names = wanted.layers.iter().flat_map(|layer| names(plan, *layer));
+    let channel = |name: String| (name.clone(), wanted.depth == Depth::Half && is_light(&name));
+    let mut channels: Vec<_> = names.map(channel).collect();
     channels.sort();
     channels.dedup();
     ExrForm { size: (width, height), channels }
 }
 
 /// The channels of a layer.
-fn names(layer: Layer) -> &'static [&'static str] {
-    match layer {
+fn names(plan: &Plan, layer: Layer) -> Vec<String> {
+    let known: &[&str] = match layer {
         Layer::Radiance => &["R", "G", "B"],
         Layer::Xyz => &["cie.X", "cie.Y", "cie.Z"],
         Layer::Doppler => &["doppler"],
@@ -84,12 +85,19 @@ fn names(layer: Layer) -> &'static [&'static str] {
         Layer::Body => &["body"],
         Layer::Material => &["material"],
         Layer::Albedo => &["albedo.R", "albedo.G", "albedo.B"],
-    }
+        Layer::Spectrum => return middles(plan.sampling.wavelengths).into_iter().map(band).collect(),
+    };
+    known.iter().map(|name| (*name).to_owned()).collect()
+}
+
+/// The channel of a part of the spectrum by its middle, nm. (The layout wants a comma.)
+fn band(nm: f64) -> String {
+    format!("S0.{}nm", nm.to_string().replace('.', ","))
 }
 
 /// Whether the digits of 16 bits are enough for a channel: not for places, times and whole numbers.
 fn is_light(name: &str) -> bool {
-    !["doppler", "emission_time", "distance", "body", "material"].contains(&name)
+    !["doppler", "emission_time", "distance", "body", "material"].contains(&name) && !name.starts_with("S0.")
 }
 
 /// The file of an exposure.
@@ -102,6 +110,7 @@ pub(super) fn measured<'a>(plan: &Plan, wanted: &plan::Measured, print: &'a Prin
         height: print.negative.height as usize,
         channels: form.channels.into_iter().map(channel).collect(),
         white_luminance: unit(wanted, print) as f32,
+        spectral: wanted.layers.contains(&Layer::Spectrum),
         text: &print.text,
     }
 }
@@ -139,6 +148,10 @@ fn values(plan: &Plan, wanted: &plan::Measured, print: &Print, name: &str) -> Ve
         "albedo.B" => number(0.0, &|seen| seen.albedo.z),
         "body" => number(-1.0, &|seen| f64::from(seen.first.body)),
         "material" => number(-1.0, &|seen| f64::from(seen.first.surface)),
-        _ => Vec::new(),
+        _ => {
+            let number =
+                print.bands.as_ref().and_then(|bands| bands.nm.iter().position(|nm| band(*nm) == name));
+            number.zip(print.bands.as_ref()).map_or_else(Vec::new, |(i, bands)| bands.radiance[i].clone())
+        }
     }
 }

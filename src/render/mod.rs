@@ -7,7 +7,7 @@ mod layers;
 mod scales;
 
 use crate::error::Error;
-use crate::exposure::{Sampling, Uncertainty, expose, expose_settled};
+use crate::exposure::{Bands, Sampling, Uncertainty, expose, expose_settled, expose_spectral};
 use crate::film::{Brightness, Development, Negative};
 use crate::observer::View;
 use crate::output::{self, FilmKind, Making};
@@ -43,11 +43,21 @@ pub struct Settling {
     pub samples: f64,
 }
 
+/// What has been measured.
+#[derive(Clone)]
+struct Exposed {
+    negative: Negative,
+    settling: Option<Settling>,
+    // Its spectrum, where that is asked for.
+    bands: Option<Bands>,
+}
+
 /// A developed picture on its way to the files.
 struct Print {
     exposure: Exposure,
     negative: Negative,
     settling: Option<Settling>,
+    bands: Option<Bands>,
     // What is seen of each pixel beside its light, where that is asked for.
     seen: Option<Vec<Option<layers::Seen>>>,
     rgb: Vec<u8>,
@@ -98,7 +108,7 @@ pub fn render(
                 }
                 continue;
             }
-            let exposed: (Negative, Option<Settling>) = last
+            let exposed: Exposed = last
                 .take()
                 .filter(|_| plan.still)
                 .unwrap_or_else(|| exposed(scene, plan, exposure, &development));
@@ -132,18 +142,20 @@ fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
     scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
 }
 
-fn exposed(
-    scene: &Scene,
-    plan: &Plan,
-    exposure: &Exposure,
-    development: &Development,
-) -> (Negative, Option<Settling>) {
+fn exposed(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Development) -> Exposed {
     // Of a still film always the first, so that a part of it has the same bytes.
     let exposure = if plan.still { &plan.exposures[0] } else { exposure };
     let view = view(scene, plan, exposure);
-    let Some(tolerance) = plan.tolerance else { return (expose(scene, &view, &plan.sampling), None) };
-    let settled = expose_settled(&scene.lit(), &view, &plan.sampling, development, tolerance);
-    (settled.negative, Some(Settling { error: settled.error, samples: settled.samples }))
+    if let Some(tolerance) = plan.tolerance {
+        let settled = expose_settled(&scene.lit(), &view, &plan.sampling, development, tolerance);
+        let settling = Settling { error: settled.error, samples: settled.samples };
+        return Exposed { negative: settled.negative, settling: Some(settling), bands: None };
+    }
+    if plan.outputs.spectrum() {
+        let (negative, bands) = expose_spectral(scene, &view, &plan.sampling);
+        return Exposed { negative, settling: None, bands: Some(bands) };
+    }
+    Exposed { negative: expose(scene, &view, &plan.sampling), settling: None, bands: None }
 }
 
 fn print(
@@ -151,7 +163,7 @@ fn print(
     plan: &Plan,
     exposure: &Exposure,
     development: &Development,
-    (negative, settling): (Negative, Option<Settling>),
+    Exposed { negative, settling, bands }: Exposed,
 ) -> Print {
     let view = view(scene, plan, exposure);
     let seen = layers::asks_rays(plan).then(|| layers::seen(scene, plan, &view));
@@ -162,7 +174,7 @@ fn print(
     };
     let white = development.white;
     let text = about::of_picture(scene, plan, exposure, white);
-    Print { exposure: *exposure, rgb, fine, negative, settling, seen, white, text }
+    Print { exposure: *exposure, rgb, fine, negative, settling, bands, seen, white, text }
 }
 
 fn file_all(

@@ -28,6 +28,15 @@ impl<const N: usize> Default for Wavelengths<N> {
 }
 
 impl<const N: usize> Wavelengths<N> {
+    /// How wide the parts of the range are of which the wavelengths are the middles, nm.
+    pub const BAND_NM: f64 = (RANGE_NM.1 - RANGE_NM.0) / N as f64;
+
+    /// The number of the part in which a wavelength (nm) lies; none outside the range.
+    pub fn band(nm: f64) -> Option<usize> {
+        let within = (RANGE_NM.0..RANGE_NM.1).contains(&nm);
+        within.then(|| (((nm - RANGE_NM.0) / Self::BAND_NM) as usize).min(N - 1))
+    }
+
     /// The rule with `N` (at least 2) wavelengths, the middles of `N` equal parts of 400 to 700 nm.
     pub fn new() -> Self {
         let step = (RANGE_NM.1 - RANGE_NM.0) / N as f64;

@@ -9,15 +9,18 @@
 //! depends on them.
 
 mod direct;
+mod first;
 mod glass;
 mod medium;
 mod mirror;
 mod passage;
 mod split;
 
+pub use first::First;
+
 use crate::lamp::Lamp;
 use crate::scene::Sky;
-use crate::spacetime::{Doppler, Event, FourVector, Rest, SightRay};
+use crate::spacetime::{Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
 use crate::world::{Crowd, Departure, Hit, Spot, World};
@@ -91,24 +94,6 @@ pub struct Light<const N: usize> {
     pub radiance: [f64; N],
     /// XYZ (cd/m²) of what no wavelength samples: spectral lines, and colours that glass has parted.
     pub lines: DVec3,
-}
-
-/// What a picture can show of a sight ray's first hit beside its light.
-#[derive(Debug, Clone, Copy)]
-pub struct First {
-    /// Frequency seen over frequency at the body.
-    pub doppler: Doppler,
-    /// The event at which the light left the body.
-    pub emission: Event,
-    /// How far back along the ray that is: the distance as who sees the frequency 1 has it, metres.
-    pub s: f64,
-    /// The normal there, of unit length in the body's rest frame and without a part along its time, on the side that is
-    /// seen; in the lab.
-    pub normal: FourVector,
-    /// The number of the body.
-    pub body: u32,
-    /// The number of the surface.
-    pub surface: u32,
 }
 
 /// How wide a sight ray is.
@@ -236,6 +221,8 @@ impl<const N: usize> Seen<'_, N> {
 /// What has been gathered for a sight ray.
 struct Gathered<'g, const N: usize> {
     light: &'g mut Light<N>,
+    // Where the spectrum is kept: what no wavelength samples, by the parts of the range of which they are the middles.
+    bands: Option<&'g mut [f64; N]>,
     // Where lines are kept apart instead of becoming XYZ.
     caught: Option<Vec<split::Caught>>,
     // The wave vector with which the strongest part of the light has come out of glass, and how strong it is.
@@ -261,8 +248,30 @@ impl Lit<'_> {
         cone: Cone,
         wavelengths: &Wavelengths<N>,
     ) -> Light<N> {
+        self.gathered(ray, cone, wavelengths, None)
+    }
+
+    /// The same, with what none of the wavelengths samples added to the parts of the range of which they are the middles:
+    /// spectral radiance, as the rest.
+    pub fn seen_in_bands<const N: usize>(
+        &self,
+        ray: &SightRay,
+        cone: Cone,
+        wavelengths: &Wavelengths<N>,
+        bands: &mut [f64; N],
+    ) -> Light<N> {
+        self.gathered(ray, cone, wavelengths, Some(bands))
+    }
+
+    fn gathered<const N: usize>(
+        &self,
+        ray: &SightRay,
+        cone: Cone,
+        wavelengths: &Wavelengths<N>,
+        bands: Option<&mut [f64; N]>,
+    ) -> Light<N> {
         let mut light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
-        let mut gathered = Gathered { light: &mut light, caught: None, exit: (0.0, ray.k) };
+        let mut gathered = Gathered { light: &mut light, bands, caught: None, exit: (0.0, ray.k) };
         let path =
             Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
         let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
@@ -272,46 +281,6 @@ impl Lit<'_> {
             self.start_inside(&leg, &wavelengths.nm, &path, &mut gathered);
         }
         light
-    }
-
-    /// The first hit of a sight ray.
-    pub fn first(&self, ray: &SightRay) -> Option<First> {
-        self.first_and(ray, |_, _| ()).map(|(first, ())| first)
-    }
-
-    /// The first hit of a sight ray, and something of the surface there.
-    pub fn first_and<T>(
-        &self,
-        ray: &SightRay,
-        of: impl Fn(Option<&Surface>, &Look<'_>) -> T,
-    ) -> Option<(First, T)> {
-        let mut ray = *ray;
-        let mut from = None;
-        let mut way = 0.0;
-        for _ in 0..MOST_VEILS {
-            let hit = self.world.nearest_from(&ray, from.as_ref(), self.crowd.as_ref())?;
-            let spot = hit.spot(&ray);
-            let look = Look { hit: &hit, spot: &spot, radius: 0.0 };
-            let surface = self.surfaces.get(hit.surface());
-            let veil = surface.and_then(|surface| surface.veil.as_ref());
-            way += hit.s;
-            if veil.is_none_or(|veil| veil.share(&look) >= 0.5) {
-                let normal = look.normal(surface.and_then(|surface| surface.relief.as_ref()));
-                let first = First {
-                    doppler: Doppler::from_emitted(spot.k.t),
-                    emission: ray.at(hit.s),
-                    s: way,
-                    normal: hit.rest.rest_from_lab.boost().inverse() * FourVector::new(0.0, normal),
-                    body: hit.placed.body,
-                    surface: hit.surface() as u32,
-                };
-                return Some((first, of(surface, &look)));
-            }
-            let beyond = spot.beyond(hit.rest, 0.0);
-            ray.event = beyond.event;
-            from = Some(beyond);
-        }
-        None
     }
 
     fn gather<const N: usize>(
@@ -477,8 +446,23 @@ impl<const N: usize> Gathered<'_, N> {
         let power = power * path.steps.map_or(1.0, |step| step.throughput(seen_nm));
         match &mut self.caught {
             Some(caught) => caught.push(split::Caught::new(of, seen_nm, power)),
-            None => self.light.lines += Wavelengths::<N>::line_xyz(seen_nm, power),
+            None => self.point(seen_nm, power),
         }
+    }
+
+    /// Light of one wavelength.
+    fn point(&mut self, seen_nm: f64, power: f64) {
+        self.light.lines += Wavelengths::<N>::line_xyz(seen_nm, power);
+        if let Some(bands) = &mut self.bands {
+            add_to_band(bands, seen_nm, power);
+        }
+    }
+}
+
+/// Adds light of one wavelength to that of N equal parts of the range in which it lies, if it does.
+fn add_to_band<const N: usize>(bands: &mut [f64; N], nm: f64, power: f64) {
+    if let Some(band) = Wavelengths::<N>::band(nm) {
+        bands[band] += power / Wavelengths::<N>::BAND_NM;
     }
 }
 

@@ -5,10 +5,10 @@
 //! colours change continuously across a picture and its samples tell how far it is settled. Spectral lines are followed at
 //! their own wavelength, wherever between the samples that is.
 
-use super::{Gathered, Light, Lit, Path};
+use super::{Gathered, Light, Lit, Path, add_to_band};
 use crate::color::{self, LUMENS_PER_WATT};
 use crate::spacetime::FourVector;
-use crate::spectrum::{Line, Wavelengths};
+use crate::spectrum::Line;
 use glam::DVec3;
 
 /// A line that a ray of one wavelength has met.
@@ -80,7 +80,8 @@ impl Lit<'_> {
                 let to = lanes.get(next).copied().unwrap_or(color::LONGEST_NM);
                 let apart = last.and_then(|last| apart.get(last)).copied().unwrap_or(0.0);
                 let count = (PER_PIXEL * apart / samples).ceil().clamp(1.0, MOST_BETWEEN);
-                gathered.light.lines += sampled((from, to), (count as u32, path.cone.phase), &mut at);
+                let bands = gathered.bands.as_deref_mut();
+                gathered.light.lines += sampled((from, to), (count as u32, path.cone.phase), bands, &mut at);
             }
         }
         if self.lines.is_empty() {
@@ -90,7 +91,7 @@ impl Lit<'_> {
             all.extend(single(nm).1.into_iter().map(|caught| (nm, caught)));
         }
         for (nm, power) in lines(all, &mut |nm| single(nm).1) {
-            gathered.light.lines += Wavelengths::<N>::line_xyz(nm, power);
+            gathered.point(nm, power);
         }
     }
 
@@ -146,7 +147,8 @@ fn one<const N: usize>(
         cone: path.cone,
     };
     let mut light = Light { radiance: [0.0], lines: DVec3::ZERO };
-    let mut gathered = Gathered { light: &mut light, caught: Some(Vec::new()), exit: (0.0, wave) };
+    let mut gathered =
+        Gathered { light: &mut light, bands: None, caught: Some(Vec::new()), exit: (0.0, wave) };
     if throughput[0] > 0.0 {
         follow(nm, &path, &mut gathered);
     }
@@ -155,11 +157,20 @@ fn one<const N: usize>(
 }
 
 /// XYZ of a radiance between two wavelengths, from as many evenly spaced ones, the first `phase` of a step in.
-fn sampled((from, to): (f64, f64), (count, phase): (u32, f64), at: &mut dyn FnMut(f64) -> f64) -> DVec3 {
+fn sampled<const N: usize>(
+    (from, to): (f64, f64),
+    (count, phase): (u32, f64),
+    mut bands: Option<&mut [f64; N]>,
+    at: &mut dyn FnMut(f64) -> f64,
+) -> DVec3 {
     let step = (to - from) / f64::from(count);
     let one = |i: u32| {
         let nm = from + step * (f64::from(i) + phase);
-        color::matching(nm) * (at(nm) * step * LUMENS_PER_WATT)
+        let power = at(nm) * step;
+        if let Some(bands) = &mut bands {
+            add_to_band(bands, nm, power);
+        }
+        color::matching(nm) * (power * LUMENS_PER_WATT)
     };
     (0..count).map(one).sum()
 }
