@@ -15,6 +15,7 @@ pub mod diagnostic;
 pub mod error;
 pub mod exposure;
 pub mod film;
+pub mod filmed;
 pub mod fresnel;
 pub mod import;
 pub mod inputs;

@@ -1,5 +1,6 @@
 //! The observer's camera: where it is, where it looks, and the sight ray of each place in the picture.
 
+use crate::filmed::Filmed;
 use crate::lens::{Lens, Optics};
 use crate::spacetime::{
     Boost, Camera, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Velocity, Worldline,
@@ -7,6 +8,7 @@ use crate::spacetime::{
 };
 use crate::trace::Cone;
 use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
 
 /// What a camera looks at.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +38,8 @@ pub struct Observer {
     /// With aberration switched off: the velocity of all bodies and the turn of the observer's axes. Directions are
     /// then those of a camera at the same event that stands still beside the bodies.
     pub unaberrated: Option<Unaberrated>,
+    /// A camera of a file that turns as the file says, whatever the aim.
+    pub filmed: Option<Arc<Filmed>>,
 }
 
 /// What directions refer to when aberration is switched off.
@@ -77,8 +81,12 @@ impl Observer {
                 if seen.is_finite() { seen } else { DVec3::NEG_Z }
             }
         };
+        let turn = match &self.filmed {
+            Some(filmed) => filmed.turn(self.worldline.start_time(tau)),
+            None => looking_along(forward, self.up),
+        };
         View {
-            tetrad: axes.turned(looking_along(forward, self.up)),
+            tetrad: axes.turned(turn),
             seer: self.unaberrated.map(|_| Boost::to_moving(Velocity::from_proper(carried.velocity().x))),
             optics: self.lens.optics(width, height),
         }

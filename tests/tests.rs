@@ -16,6 +16,7 @@ mod equivalence;
 mod false_color;
 mod fill;
 mod film;
+mod filmed;
 mod films;
 mod fizeau;
 mod formats;

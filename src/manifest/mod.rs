@@ -13,6 +13,7 @@
 //! ~~~
 
 mod body;
+mod camera;
 mod canonical;
 mod course;
 mod exposures;
@@ -46,6 +47,7 @@ mod units;
 mod yaml;
 
 pub use body::{AssetRef, AssetSource, Body, ModelFile};
+pub use camera::Camera;
 pub use course::{Blinking, Course, Key};
 pub use exposures::{Clock, Exposures};
 pub use glass::{Glass, GlassName, Index, Tint};
@@ -253,14 +255,18 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
     let mut manifest = <Manifest as Kind>::read(root, reader)?;
     looking.and(apart)?;
     shorthand::expand(&mut manifest, root, reader)?;
-    let used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
+    let mut used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
+    if let Worldline::Camera(camera) = &manifest.observer.worldline {
+        used.insert(&camera.asset.value);
+    }
     for (name, asset) in &manifest.assets {
         if !used.contains(name) {
             reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
     }
     lens::check_size(&manifest, reader.report);
-    if manifest.film.is_none() && manifest.exposures.count > 1 {
+    let several = manifest.exposures.count > 1 || !manifest.exposures.timed;
+    if manifest.film.is_none() && several {
         manifest.film = Some(Film::usual());
     }
     Ok(manifest)

@@ -292,6 +292,7 @@ impl Eye {
             up: self.up,
             lens: self.lens,
             unaberrated: None,
+            filmed: None,
         }
     }
 
