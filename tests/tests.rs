@@ -47,6 +47,7 @@ mod sky;
 mod solid;
 mod solids;
 mod spectrum;
+mod stereo;
 mod support;
 mod surroundings;
 mod survive;

@@ -69,7 +69,7 @@ fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) 
     let share = 1.0 / f64::from(sampling.samples);
     let spacing = share.sqrt();
     let expose_pixel = |column: usize, row: usize| {
-        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let (view, centre) = view.of_pixel(DVec2::new(column as f64 + 0.5, row as f64 + 0.5));
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
         for (offset, phase) in offsets.iter().zip(&phases) {
@@ -119,7 +119,8 @@ pub fn first_colors(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<
         surface.map_or(DVec3::ZERO, |surface| surface.albedo(look))
     };
     let first = |column: usize, row: usize| {
-        lit.first_and(&view.ray(DVec2::new(column as f64 + 0.5, row as f64 + 0.5)), color)
+        let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        if view.shows(place) { lit.first_and(&view.ray(place), color) } else { None }
     };
     by_pixel(width, height, first)
 }

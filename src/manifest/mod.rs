@@ -41,6 +41,7 @@ mod schema;
 mod shorthand;
 mod solid;
 mod spectrum;
+mod stereo;
 mod surroundings;
 mod table;
 mod units;
@@ -68,6 +69,7 @@ pub use schema::schema;
 pub use shorthand::{Flyby, Shorthand, Turntable};
 pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
+pub use stereo::{Layout, Stereo};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
 pub use table::Rows;
 pub(crate) use table::read_text;
@@ -265,6 +267,7 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
         }
     }
     lens::check_size(&manifest, reader.report);
+    stereo::check(&manifest, reader.report);
     let several = manifest.exposures.count > 1 || !manifest.exposures.timed;
     if manifest.film.is_none() && several {
         manifest.film = Some(Film::usual());

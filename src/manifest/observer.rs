@@ -10,6 +10,7 @@ use super::plain::{Direction, Real};
 use super::quantity::{Acceleration, Angle, Length, Point, Written};
 use super::reader::{Read, Reader, instead};
 use super::record::{Kind, Shape, choice, record};
+use super::stereo::Stereo;
 use crate::spacetime::Track;
 use glam::DVec3;
 use std::sync::Arc;
@@ -29,6 +30,8 @@ record! {
         /// Angle across the width of the picture: of a pinhole below 180 deg, and 50 deg unless said; of a fisheye up to
         /// 360 deg, and 180 deg unless said.
         field_of_view: Option<f64> = FieldOfView, optional, "50 deg";
+        /// Two eyes in place of one.
+        stereo: Option<Stereo> = Stereo, optional, "{ apart: 6.5 cm }";
     }
 }
 

@@ -15,6 +15,7 @@ use crate::manifest::{self, Amount, Clock, Filter, Manifest};
 use crate::scene::Scene;
 use crate::spacetime::Course;
 use crate::spectrum::{Source, Spectrum};
+use crate::stereo::Side;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -70,6 +71,8 @@ pub struct Plan {
     pub text: Vec<(&'static str, String)>,
     /// What the pictures are made of; none where that is not known, and pictures that are there already are rendered anew.
     pub inputs: Option<(Digest, Digest)>,
+    /// Which eye sees them, of two that have a folder each.
+    pub eye: Option<Side>,
     /// Whether pictures that are there already are rendered anew.
     pub restart: bool,
 }
@@ -156,6 +159,7 @@ impl Plan {
             seconds_per_metre: 1.0 / manifest.light_speed,
             text: vec![("Software", VERSION.to_owned()), ("Source", stem.into_owned())],
             inputs: report.inputs.manifest.map(|manifest| (manifest, report.inputs.of_files())),
+            eye: None,
             restart: false,
         }
     }

@@ -13,6 +13,7 @@ use crate::observer::View;
 use crate::output::{self, FilmKind, Making};
 use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
+use crate::stereo::{self, Layout, Side, Stereo};
 use scales::Scales;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -74,12 +75,28 @@ pub fn render(
     tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
     let mut tell = tell;
+    let development = development(scene, plan);
+    if !scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) {
+        return render_film(scene, plan, chosen, &development, tell);
+    }
+    Side::BOTH.into_iter().try_for_each(|side| {
+        let plan = Plan { eye: Some(side), folder: plan.folder.join(side.name()), ..plan.clone() };
+        render_film(scene, &plan, chosen.clone(), &development, &mut tell)
+    })
+}
+
+fn render_film(
+    scene: &Scene,
+    plan: &Plan,
+    chosen: std::ops::Range<usize>,
+    development: &Development,
+    mut tell: impl FnMut(Step) + Send,
+) -> Result<(), Error> {
     let folder = folder::open(plan, &chosen, &mut tell)?;
     if !folder.kept.is_empty() {
         tell(Step::Kept(folder.kept.len()));
     }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
-    let development = development(scene, plan);
     tell(Step::Metered(development.white));
     let scales = scales::of(scene, plan);
     let comment = about::lines(&about::of_film(plan, development.white));
@@ -101,11 +118,11 @@ pub fn render(
             let exposed: (Negative, Option<Settling>) = last
                 .take()
                 .filter(|_| plan.still)
-                .unwrap_or_else(|| exposed(scene, plan, exposure, &development));
+                .unwrap_or_else(|| exposed(scene, plan, exposure, development));
             if plan.still {
                 last = Some(exposed.clone());
             }
-            let print = print(scene, plan, exposure, &development, exposed);
+            let print = print(scene, plan, exposure, development, exposed);
             if prints.send(Sheet::New(Box::new(print))).is_err() {
                 break; // The writer has stopped and says why.
             }
@@ -129,7 +146,11 @@ fn start(plan: &Plan, path: &Path, comment: &str) -> Result<Making, Error> {
 }
 
 fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
-    scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
+    let view = scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height);
+    match (plan.eye, scene.observer.stereo) {
+        (Some(side), Some(eyes)) => view.eye(side, eyes.apart),
+        _ => view,
+    }
 }
 
 fn exposed(
@@ -141,8 +162,27 @@ fn exposed(
     // Of a still film always the first, so that a part of it has the same bytes.
     let exposure = if plan.still { &plan.exposures[0] } else { exposure };
     let view = view(scene, plan, exposure);
-    let Some(tolerance) = plan.tolerance else { return (expose(scene, &view, &plan.sampling), None) };
-    let settled = expose_settled(&scene.lit(), &view, &plan.sampling, development, tolerance);
+    let of = |view: &View| exposed_by(scene, plan, view, development);
+    let Some(Stereo { apart, layout: Layout::Anaglyph }) = scene.observer.stereo else { return of(&view) };
+    let [left, right] = Side::BOTH.map(|side| of(&view.eye(side, apart)));
+    let settling = left.1.zip(right.1).map(|(one, other)| Settling {
+        error: Uncertainty {
+            mean: one.error.mean.max(other.error.mean),
+            p99: one.error.p99.max(other.error.p99),
+        },
+        samples: one.samples + other.samples,
+    });
+    (stereo::anaglyph(&left.0, &right.0), settling)
+}
+
+fn exposed_by(
+    scene: &Scene,
+    plan: &Plan,
+    view: &View,
+    development: &Development,
+) -> (Negative, Option<Settling>) {
+    let Some(tolerance) = plan.tolerance else { return (expose(scene, view, &plan.sampling), None) };
+    let settled = expose_settled(&scene.lit(), view, &plan.sampling, development, tolerance);
     (settled.negative, Some(Settling { error: settled.error, samples: settled.samples }))
 }
 

@@ -50,6 +50,7 @@ impl Shot {
             lens: self.lens,
             unaberrated,
             filmed: self.filmed,
+            stereo: written.stereo.as_ref().map(manifest::Stereo::eyes),
         }
     }
 }
@@ -143,7 +144,7 @@ fn lens(
         );
         return None;
     };
-    let (width, height) = manifest.picture.size;
+    let (width, height) = (manifest.eye_width(), manifest.picture.size.1);
     let half = libm::tan(0.5 * vertical) * f64::from(width) / f64::from(height);
     Some(Lens::Pinhole { across: 2.0 * libm::atan(half) })
 }

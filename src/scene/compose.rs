@@ -280,6 +280,7 @@ fn observer(manifest: &Manifest, models: &Models, report: &mut Report) -> Observ
         lens: written.optics(),
         unaberrated,
         filmed: None,
+        stereo: written.stereo.as_ref().map(manifest::Stereo::eyes),
     }
 }
 
