@@ -21,7 +21,9 @@ impl Filmed {
     /// The turn of the camera at a time of the starting frame, metres.
     pub fn turn(&self, t: f64) -> DQuat {
         let place = self.rig.at((t - self.start) * self.pace);
-        looking_along(-place.matrix3.z_axis, place.matrix3.y_axis)
+        let turn = looking_along(-place.matrix3.z_axis, place.matrix3.y_axis);
+        // Of a camera that is scaled to nothing for a moment nothing says where it looks.
+        if turn.is_finite() { turn } else { DQuat::IDENTITY }
     }
 
     /// The time of the starting frame at a time of the file, seconds.

@@ -274,6 +274,8 @@ fn camera_that_is_none_is_refused_with_what_to_type() {
     says("camera: { asset: walk }", "has 3 cameras", "name: Camera");
     says("camera: { asset: walk, name: Camra }", "no camera named `Camra`", "did you mean `Camera`?");
     says("camera: { asset: walk, name: Plan }", "orthographic", "field_of_view: 50 deg");
+    let faults = refused(&walk("9 m/s", "camera: { asset: walk, name: Still }", "exposures: { count: 4 },"));
+    assert!(faults.len() == 1 && faults[0].0.contains("is not animated"), "{faults:?}");
     says("camera: { asset: ball }", "is a shape", "model file");
     says(
         "camera: { asset: walk, name: Camera, animation: Amr }",

@@ -74,6 +74,15 @@ pub(super) fn shot(
     let rig = rig(written, asset, camera.node, report)?;
     let keys = rig.keys();
     let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
+        let exposures = &manifest.exposures;
+        if exposures.count > 1 && !exposures.timed {
+            let what = format!(
+                "the camera `{}` is not animated: when are its {} pictures taken?",
+                name(asset, camera),
+                exposures.count
+            );
+            report.fault(exposures.place.clone(), what, "from: 0 s, to: 4 s");
+        }
         return Some(Shot { track: None, place: rig.at(0.0), filmed: None, lens });
     };
     let pace = written.rate / manifest.light_speed;
