@@ -75,13 +75,14 @@ pub fn render(
     tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
     let mut tell = tell;
-    let development = development(scene, plan);
+    // Both eyes' films are developed alike.
+    let mut known = None;
     if !scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) {
-        return render_film(scene, plan, chosen, &development, tell);
+        return render_film(scene, plan, chosen, &mut known, tell);
     }
     Side::BOTH.into_iter().try_for_each(|side| {
         let plan = Plan { eye: Some(side), folder: plan.folder.join(side.name()), ..plan.clone() };
-        render_film(scene, &plan, chosen.clone(), &development, &mut tell)
+        render_film(scene, &plan, chosen.clone(), &mut known, &mut tell)
     })
 }
 
@@ -89,7 +90,7 @@ fn render_film(
     scene: &Scene,
     plan: &Plan,
     chosen: std::ops::Range<usize>,
-    development: &Development,
+    known: &mut Option<Development>,
     mut tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
     let folder = folder::open(plan, &chosen, &mut tell)?;
@@ -97,6 +98,7 @@ fn render_film(
         tell(Step::Kept(folder.kept.len()));
     }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
+    let development = &*known.get_or_insert_with(|| development(scene, plan));
     tell(Step::Metered(development.white));
     let scales = scales::of(scene, plan);
     let comment = about::lines(&about::of_film(plan, development.white));
