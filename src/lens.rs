@@ -31,9 +31,8 @@ pub(crate) struct Optics {
 }
 
 impl Lens {
-    /// For a picture of `width` by `height` pixels.
-    pub(crate) fn optics(self, width: u32, height: u32) -> Optics {
-        let size = DVec2::new(f64::from(width), f64::from(height));
+    /// For a picture of a size in pixels.
+    pub(crate) fn optics(self, size: DVec2) -> Optics {
         let scale = match self {
             Self::Pinhole { across } => libm::tan(0.5 * across),
             Self::Fisheye { across } => across / size.x,
@@ -44,6 +43,12 @@ impl Lens {
 }
 
 impl Optics {
+    /// Columns.
+    #[inline]
+    pub(crate) fn width(&self) -> f64 {
+        self.size.x
+    }
+
     /// Whether a place in the picture, pixels from the upper left corner, shows anything: beyond 180° from where a fisheye
     /// looks there is no direction.
     #[inline]

@@ -1,12 +1,15 @@
 //! The observer's camera: where it is, where it looks, and the sight ray of each place in the picture.
 
+use crate::filmed::Filmed;
 use crate::lens::{Lens, Optics};
 use crate::spacetime::{
-    Boost, Camera, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Velocity, Worldline,
+    Boost, Camera, Event, FourVector, Lab, Lorentz, Poincare, Rest, SightRay, Tetrad, Velocity, Worldline,
     looking_along,
 };
+use crate::stereo::{Layout, Side, Stereo};
 use crate::trace::Cone;
 use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
 
 /// What a camera looks at.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +39,10 @@ pub struct Observer {
     /// With aberration switched off: the velocity of all bodies and the turn of the observer's axes. Directions are
     /// then those of a camera at the same event that stands still beside the bodies.
     pub unaberrated: Option<Unaberrated>,
+    /// A camera of a file that turns as the file says, whatever the aim.
+    pub filmed: Option<Arc<Filmed>>,
+    /// Two eyes in place of one.
+    pub stereo: Option<Stereo>,
 }
 
 /// What directions refer to when aberration is switched off.
@@ -52,6 +59,8 @@ pub struct Unaberrated {
 pub struct View {
     /// The observer with the camera's axes: x right, y up, z backward.
     pub tetrad: Tetrad,
+    // Where the right eye is, whose picture is the right half.
+    right: Option<Event>,
     // Into the observer's true rest frame, where the tetrad's is not.
     seer: Option<Boost<Camera, Lab>>,
     optics: Optics,
@@ -77,24 +86,63 @@ impl Observer {
                 if seen.is_finite() { seen } else { DVec3::NEG_Z }
             }
         };
-        View {
-            tetrad: axes.turned(looking_along(forward, self.up)),
+        let turn = match &self.filmed {
+            Some(filmed) => filmed.turn(self.worldline.start_time(tau)),
+            None => looking_along(forward, self.up),
+        };
+        let size = DVec2::new(f64::from(width), f64::from(height));
+        let view = View {
+            tetrad: axes.turned(turn),
+            right: None,
             seer: self.unaberrated.map(|_| Boost::to_moving(Velocity::from_proper(carried.velocity().x))),
-            optics: self.lens.optics(width, height),
+            optics: self.lens.optics(size),
+        };
+        match self.stereo {
+            Some(Stereo { apart, layout: Layout::SideBySide }) => {
+                let optics = self.lens.optics(DVec2::new(0.5 * size.x, size.y));
+                let [left, right] = Side::BOTH.map(|side| view.eye(side, apart));
+                View { right: Some(right.tetrad.event), optics, ..left }
+            }
+            _ => view,
         }
     }
 }
 
 impl View {
+    /// What one of two eyes sees that are `apart` (metres), at the same time of the observer's rest frame.
+    pub fn eye(&self, side: Side, apart: f64) -> Self {
+        let offset = FourVector::<Camera>::new(0.0, DVec3::X * side.offset(apart));
+        let event = self.tetrad.event + self.tetrad.lab_from_camera * offset;
+        Self { tetrad: Tetrad { event, ..self.tetrad }, ..*self }
+    }
+
+    /// The picture of the eye to whom a pixel belongs, and the pixel in it: samples beside a pixel are of the same eye.
+    #[inline]
+    pub fn of_pixel(&self, pixel: DVec2) -> (Self, DVec2) {
+        let (event, pixel) = self.local(pixel);
+        (Self { tetrad: Tetrad { event, ..self.tetrad }, right: None, ..*self }, pixel)
+    }
+
+    /// Where the light of a pixel arrives, and the pixel in the picture of that eye.
+    #[inline]
+    fn local(&self, pixel: DVec2) -> (Event, DVec2) {
+        match self.right {
+            Some(right) if pixel.x >= self.optics.width() => {
+                (right, DVec2::new(pixel.x - self.optics.width(), pixel.y))
+            }
+            _ => (self.tetrad.event, pixel),
+        }
+    }
+
     /// Whether a place in the picture shows anything: not beyond 180° from where a fisheye looks.
     #[inline]
     pub fn shows(&self, pixel: DVec2) -> bool {
-        self.optics.shows(pixel)
+        self.optics.shows(self.local(pixel).1)
     }
 
     /// The unit direction, in the camera's axes, of a place in the picture: pixels from the upper left corner.
     pub fn direction(&self, pixel: DVec2) -> DVec3 {
-        self.optics.direction(pixel)
+        self.optics.direction(self.local(pixel).1)
     }
 
     /// The sight ray of a place in the picture, k·u = 1.
@@ -105,8 +153,9 @@ impl View {
     /// The sight ray of a place, k·u = 1, and how wide it is among samples that are `spacing` pixels apart.
     #[inline]
     pub fn sight(&self, pixel: DVec2, spacing: f64) -> (SightRay, Cone) {
-        let direction = self.direction(pixel);
-        let ray = self.tetrad.sight_ray(direction);
+        let (event, pixel) = self.local(pixel);
+        let direction = self.optics.direction(pixel);
+        let ray = SightRay { event, ..self.tetrad.sight_ray(direction) };
         let half = self.optics.half_width(direction);
         let cone = |half: f64| Cone { sample: half * spacing, pixel: half, phase: 0.0 };
         match self.seer {
@@ -140,7 +189,8 @@ impl View {
         apparent.try_normalize().unwrap_or(-toward)
     }
 
-    /// Where in the picture light with the wave vector `k` arrives; none from behind a pinhole.
+    /// Where in the picture light with the wave vector `k` arrives (of two eyes: at the left one);
+    /// none from behind a pinhole.
     pub fn pixel_of(&self, k: FourVector) -> Option<DVec2> {
         self.optics.pixel_of(self.tetrad.direction_of(k))
     }

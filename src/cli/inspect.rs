@@ -64,7 +64,11 @@ fn as_text(asset: &Asset) -> String {
         text += "\n";
     }
     for animation in &asset.animations {
-        text += &format!("\nanimation {} (not played)\n", name(animation));
+        text += &format!(
+            "\nanimation {} ({})\n",
+            name(&animation.name),
+            if animation.channels.is_empty() { "not played" } else { "moves a camera" }
+        );
     }
     text
 }
@@ -198,7 +202,7 @@ fn as_json(asset: &Asset) -> Value {
     let size = extent(asset).map(|(lo, hi)| [lo.to_array(), hi.to_array()]);
     json!({ "file": asset.path, "extent": size, "nodes": nodes, "meshes": meshes, "materials": materials,
         "lights": asset.lights.len(), "cameras": asset.cameras.iter().map(|c| &c.name).collect::<Vec<_>>(),
-        "animations": asset.animations })
+        "animations": asset.animations.iter().map(|animation| &animation.name).collect::<Vec<_>>() })
 }
 
 fn material_json(asset: &Asset, number: usize) -> Value {

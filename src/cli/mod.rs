@@ -14,6 +14,7 @@ use crate::manifest::{self, Manifest};
 use crate::plan::Plan;
 use crate::render;
 use crate::scene::{Scene, compose, compose_rest};
+use crate::stereo::Layout;
 use clap::{Args, Parser, Subcommand};
 use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER, SCHEMA};
 use std::io::{IsTerminal, Write};
@@ -261,7 +262,9 @@ fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> R
         plan.tolerance = None; // Asked for by hand, whatever the manifest has.
     }
     let chosen = chosen(args, plan.exposures.len())?;
-    let mut progress = progress::Progress::start(&plan, chosen.len());
+    let films =
+        if scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) { 2 } else { 1 };
+    let mut progress = progress::Progress::start(&plan, films * chosen.len());
     render::render(&scene, &plan, chosen, |step| progress.show(&step))
 }
 

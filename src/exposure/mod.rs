@@ -101,15 +101,15 @@ impl<'a, const N: usize> Exposing<'a, N> {
         mut seen: impl FnMut(&SightRay, Cone) -> Light<N>,
     ) -> ([f32; 3], [f64; N]) {
         let spacing = self.share.sqrt();
-        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let (view, centre) = self.view.of_pixel(DVec2::new(column as f64 + 0.5, row as f64 + 0.5));
         let mut radiance = [0.0; N];
         let mut lines = DVec3::ZERO;
         for (offset, phase) in self.offsets.iter().zip(&self.phases) {
             let place = centre + *offset;
-            if !self.view.shows(place) {
+            if !view.shows(place) {
                 continue;
             }
-            let (ray, cone) = self.view.sight(place, spacing);
+            let (ray, cone) = view.sight(place, spacing);
             let light = seen(&ray, Cone { phase: *phase, ..cone });
             for (sum, value) in radiance.iter_mut().zip(light.radiance) {
                 *sum += value;

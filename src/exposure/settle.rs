@@ -234,7 +234,7 @@ impl<'a> Measuring<'a> {
         samples: u32,
         rule: &Wavelengths<N>,
     ) -> Pixel {
-        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+        let (view, centre) = self.view.of_pixel(DVec2::new(column as f64 + 0.5, row as f64 + 0.5));
         let set = (column % 4, row % 4);
         let spacing = (1.0 / f64::from(samples.max(SHARP))).sqrt();
         let known = before.filter(|before| before.wavelengths == N as u32);
@@ -247,10 +247,10 @@ impl<'a> Measuring<'a> {
                     sums.half = sums.xyz;
                 }
                 let place = centre + *offset;
-                if !self.view.shows(place) {
+                if !view.shows(place) {
                     continue;
                 }
-                let (ray, cone) = self.view.sight(place, spacing);
+                let (ray, cone) = view.sight(place, spacing);
                 let light = self.lit.seen_within(&ray, Cone { phase: phase(number), ..cone }, rule);
                 let one = rule.xyz(&light.radiance) + light.lines;
                 sums.xyz += one;

@@ -8,7 +8,7 @@
 //! Of glTF 2.0: the default scene with its nodes, triangles, tangents, lights and cameras; materials with base
 //! and emissive colours, metalness and roughness, normal maps, coverage (`alphaMode`), and by extensions
 //! refractive index, dispersion, transmission, volume, specular and clearcoat, each with its textures. Skinned
-//! and morphed meshes stand in their rest pose; animations, and the other extensions of materials (sheen,
+//! and morphed meshes stand in their rest pose; animations move cameras and nothing else; the other extensions of materials (sheen,
 //! iridescence, anisotropy, diffuse transmission, specular-glossiness), are passed over with a warning.
 //! Ambient occlusion is left out for good: whoever follows the light finds what hides it. So are textures of
 //! thickness: the mesh has the true one.
@@ -17,6 +17,7 @@
 //! colours of vertices (sRGB, as Blender writes them), and of MTL `Kd`, `Ke`, `d` or `Tr`, `Ni`, `map_Kd`,
 //! `map_Ke`, and `Pm` and `Pr`. A material without the latter two scatters alike to all sides.
 
+mod animation;
 mod files;
 mod gltf;
 mod material;
@@ -27,6 +28,7 @@ mod shape;
 use crate::error::{Error, Fault, Place, Report};
 use crate::inputs::Inputs;
 use crate::mesh::Mesh;
+pub use animation::{Animation, Channel, Interpolation, Moving, Pose, Rig};
 use files::Files;
 use glam::DAffine3;
 pub use material::{Clearcoat, Coverage, Material, MetalRough, NormalMap, Specular, Transmission, Volume};
@@ -101,6 +103,8 @@ pub struct Node {
     pub name: String,
     /// Its parent, an index into [`Asset::nodes`] smaller than its own.
     pub parent: Option<usize>,
+    /// Its place in its parent.
+    pub pose: Pose,
     /// Its place in the asset's space.
     pub asset_from_node: DAffine3,
 }
@@ -124,8 +128,8 @@ pub struct Asset {
     pub lights: Vec<Light>,
     /// Cameras in the order of their nodes.
     pub cameras: Vec<Camera>,
-    /// Names of the file's animations.
-    pub animations: Vec<String>,
+    /// The file's animations, as far as cameras hang on what moves.
+    pub animations: Vec<Animation>,
     /// What the file has and this program passes over, and what looks like a mistake.
     pub warnings: Vec<Fault>,
     /// The file and all others that it names.

@@ -217,7 +217,7 @@ impl Body {
 }
 
 /// The name of an asset.
-struct AssetName;
+pub(super) struct AssetName;
 
 impl Kind for AssetName {
     type Value = Spanned<String>;

@@ -50,6 +50,10 @@ pub struct Exposures {
     pub count: u32,
     /// By whose clock.
     pub clock: Clock,
+    /// Whether any of their times is said; else those of an animated camera's keys take their place.
+    pub timed: bool,
+    /// Whether `count` is said.
+    pub counted: bool,
 }
 
 /// Exposures, checked.
@@ -63,10 +67,20 @@ impl Kind for ExposuresKind {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Exposures> {
         let keys = ExposuresKeys::read(node, reader)?;
         let (from, to) = span(&keys, reader)?;
+        let timed = !reader.filmed || keys.from.is_some() || keys.at.is_some();
+        let counted = keys.count.is_some();
         let Some(to) = to else {
             let count = keys.count.unwrap_or(1);
-            if count == 1 || reader.ring {
-                return Ok(Exposures { place: keys.place, from, to: from, count, clock: keys.clock });
+            if count == 1 || reader.ring || !timed {
+                return Ok(Exposures {
+                    place: keys.place,
+                    from,
+                    to: from,
+                    count,
+                    clock: keys.clock,
+                    timed,
+                    counted,
+                });
             }
             let what = format!("{count} exposures need a time from which and one to which");
             return Err(reader.fault(&keys.place, what, "from: 0 s, to: 4 s"));
@@ -80,7 +94,7 @@ impl Kind for ExposuresKind {
             let hint = format!("from: {}, to: {}", text("to"), text("from"));
             return Err(reader.fault(&to.place, "`to` is not later than `from`", hint));
         }
-        Ok(Exposures { place: keys.place, from, to: to.value, count, clock: keys.clock })
+        Ok(Exposures { place: keys.place, from, to: to.value, count, clock: keys.clock, timed, counted })
     }
 }
 

@@ -64,7 +64,8 @@ pub(super) fn of(observer: &Node) -> Lens {
 
 /// Says where a panorama's pixels are no squares.
 pub(super) fn check_size(manifest: &super::Manifest, report: &mut Report) {
-    let (width, height) = manifest.picture.size;
+    let height = manifest.picture.size.1;
+    let width = manifest.eye_width();
     if manifest.observer.lens == Lens::Panorama && width != 2 * height {
         let what = format!("a panorama that is not twice as wide as high ({width} x {height}) is squeezed");
         report.warn(manifest.picture.place.clone(), what, format!("size: {} {height}", 2 * height));

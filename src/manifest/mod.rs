@@ -13,6 +13,7 @@
 //! ~~~
 
 mod body;
+mod camera;
 mod canonical;
 mod course;
 mod exposures;
@@ -40,12 +41,14 @@ mod schema;
 mod shorthand;
 mod solid;
 mod spectrum;
+mod stereo;
 mod surroundings;
 mod table;
 mod units;
 mod yaml;
 
 pub use body::{AssetRef, AssetSource, Body, ModelFile};
+pub use camera::Camera;
 pub use course::{Blinking, Course, Key};
 pub use exposures::{Clock, Exposures};
 pub use glass::{Glass, GlassName, Index, Tint};
@@ -66,6 +69,7 @@ pub use schema::schema;
 pub use shorthand::{Flyby, Shorthand, Turntable};
 pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
+pub use stereo::{Layout, Stereo};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
 pub use table::Rows;
 pub(crate) use table::read_text;
@@ -253,14 +257,19 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
     let mut manifest = <Manifest as Kind>::read(root, reader)?;
     looking.and(apart)?;
     shorthand::expand(&mut manifest, root, reader)?;
-    let used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
+    let mut used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
+    if let Worldline::Camera(camera) = &manifest.observer.worldline {
+        used.insert(&camera.asset.value);
+    }
     for (name, asset) in &manifest.assets {
         if !used.contains(name) {
             reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
     }
     lens::check_size(&manifest, reader.report);
-    if manifest.film.is_none() && manifest.exposures.count > 1 {
+    stereo::check(&manifest, reader.report);
+    let several = manifest.exposures.count > 1 || !manifest.exposures.timed;
+    if manifest.film.is_none() && several {
         manifest.film = Some(Film::usual());
     }
     Ok(manifest)

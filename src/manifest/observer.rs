@@ -1,6 +1,7 @@
 //! The observer as written.
 
 use super::Spanned;
+use super::camera::{self, Camera};
 use super::keyed::PathKeys;
 use super::lens::{self, FieldOfView, Lens};
 use super::motion::{Placement, Speed};
@@ -9,6 +10,7 @@ use super::plain::{Direction, Real};
 use super::quantity::{Acceleration, Angle, Length, Point, Written};
 use super::reader::{Read, Reader, instead};
 use super::record::{Kind, Shape, choice, record};
+use super::stereo::Stereo;
 use crate::spacetime::Track;
 use glam::DVec3;
 use std::sync::Arc;
@@ -28,6 +30,8 @@ record! {
         /// Angle across the width of the picture: of a pinhole below 180 deg, and 50 deg unless said; of a fisheye up to
         /// 360 deg, and 180 deg unless said.
         field_of_view: Option<f64> = FieldOfView, optional, "50 deg";
+        /// Two eyes in place of one.
+        stereo: Option<Stereo> = Stereo, optional, "{ apart: 6.5 cm }";
     }
 }
 
@@ -54,6 +58,8 @@ choice! {
         ring => Ring(Ring) = Ring, "{ radius: 4 m }";
         /// Places at times, and between them a smooth path (velocity and acceleration are continuous).
         keys => Keys(Arc<Track>) = PathKeys, "[{ at_time: 0 s, at: 0 1 5 m }, { at_time: 4 s, at: 2 1 4 m }]";
+        /// A camera of a model file, standing or moved as in Blender.
+        camera => Camera(Camera) = Camera, "{ asset: street, name: Camera }";
     }
 }
 
@@ -144,7 +150,10 @@ impl Kind for ObserverKind {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Observer> {
         reader.lens = lens::of(node);
         reader.ring = node.get("ring").is_some();
+        reader.filmed = node.get("camera").is_some();
+        let sound = camera::check(node, reader);
         let observer = <Observer as Kind>::read(node, reader)?;
+        sound?;
         let View::Direction(direction) = observer.view else { return Ok(observer) };
         if direction.cross(observer.up).length() > 1e-9 {
             return Ok(observer);

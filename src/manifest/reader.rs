@@ -52,6 +52,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) bodies: Vec<String>,
     /// Whether the observer is a ring of observers, whose exposures may all be at one instant.
     pub(crate) ring: bool,
+    /// Whether the observer is a camera of a file, whose animation has times of its own.
+    pub(crate) filmed: bool,
     /// What the observer's camera makes its pictures with.
     pub(crate) lens: Lens,
     pub(crate) spectra: Names<Spectrum>,
@@ -73,6 +75,7 @@ impl<'a> Reader<'a> {
             solids: BTreeSet::new(),
             bodies: Vec::new(),
             ring: false,
+            filmed: false,
             lens: Lens::Pinhole,
             spectra: Names::default(),
             materials: Names::default(),

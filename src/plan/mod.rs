@@ -15,6 +15,7 @@ use crate::manifest::{self, Amount, Clock, Filter, Manifest};
 use crate::scene::Scene;
 use crate::spacetime::Course;
 use crate::spectrum::{Source, Spectrum};
+use crate::stereo::Side;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -70,9 +71,14 @@ pub struct Plan {
     pub text: Vec<(&'static str, String)>,
     /// What the pictures are made of; none where that is not known, and pictures that are there already are rendered anew.
     pub inputs: Option<(Digest, Digest)>,
+    /// Which eye sees them, of two that have a folder each.
+    pub eye: Option<Side>,
     /// Whether pictures that are there already are rendered anew.
     pub restart: bool,
 }
+
+/// The most exposures of an animation whose number is not said.
+const MOST_OF_ANIMATION: f64 = 1e6;
 
 /// This program.
 pub const VERSION: &str = concat!("terrell ", env!("CARGO_PKG_VERSION"));
@@ -126,7 +132,7 @@ impl Plan {
         let film = manifest.film.as_ref().filter(|film| film.video);
         let files = film.map(|film| film.file.clone()).filter(|files| !files.is_empty());
         let files = files.unwrap_or_else(|| vec![format!("{stem}.mp4")]);
-        let exposures = exposures(&manifest.exposures, scene);
+        let exposures = exposures(manifest, scene);
         let film_files = outputs::films(film, files, exposures.len(), manifest, report);
         let film_rate = film.map(|film| film.rate).filter(|_| !film_files.is_empty());
         limits::check(manifest, scene, &exposures, report);
@@ -158,12 +164,30 @@ impl Plan {
             seconds_per_metre: 1.0 / manifest.light_speed,
             text: vec![("Software", VERSION.to_owned()), ("Source", stem.into_owned())],
             inputs: report.inputs.manifest.map(|manifest| (manifest, report.inputs.of_files())),
+            eye: None,
             restart: false,
         }
     }
 }
 
-fn exposures(written: &manifest::Exposures, scene: &Scene) -> Vec<Exposure> {
+/// The exposures of a camera's animation: from its first key to its last.
+fn of_animation(manifest: &Manifest, (from, to): (f64, f64), scene: &Scene) -> Vec<Exposure> {
+    let seconds = (to - from) / manifest.light_speed;
+    let rate = manifest.film.as_ref().map_or(24.0, |film| film.rate);
+    let written = &manifest.exposures;
+    let count = if written.counted { f64::from(written.count) } else { (seconds * rate).round() + 1.0 };
+    let count = if to > from { count.clamp(1.0, MOST_OF_ANIMATION) as usize } else { 1 };
+    let last = (count - 1).max(1) as f64;
+    let tau =
+        |index: usize| scene.observer.worldline.tau_at_start(from + (to - from) * (index as f64 / last));
+    (0..count).map(|index| Exposure { index, tau: tau(index) }).collect()
+}
+
+fn exposures(manifest: &Manifest, scene: &Scene) -> Vec<Exposure> {
+    let written = &manifest.exposures;
+    if let Some(filmed) = scene.observer.filmed.as_ref().filter(|_| !written.timed) {
+        return of_animation(manifest, filmed.span, scene);
+    }
     let count = written.count as usize;
     let worldline = &scene.observer.worldline;
     let tau = |index: usize| {

@@ -136,7 +136,7 @@ fn filter(scatter: &Scatter) -> Tone {
 /// Whether every exposure of the film is the same picture.
 pub fn still(scene: &Scene) -> Because {
     let steady = |course: &crate::course::Course| *course == crate::course::Course::Steady;
-    if !matches!(scene.observer.worldline.course(), Course::Inertial) {
+    if !matches!(scene.observer.worldline.course(), Course::Inertial) || scene.observer.filmed.is_some() {
         return no("the observer's motion or place changes");
     }
     // Exactly: what is as slow as can be gets somewhere in time.

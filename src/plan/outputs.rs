@@ -124,14 +124,17 @@ pub(super) fn films(
     files
 }
 
-/// A fault where a spectrum is wanted of pictures whose pixels have other wavelengths one by one.
+/// Faults where a spectrum is wanted of pictures that have none: pixels with other wavelengths one by one, and two eyes in one.
 pub(super) fn check_spectrum(manifest: &manifest::Manifest, outputs: &Outputs, report: &mut Report) {
-    if outputs.spectrum()
-        && manifest.picture.tolerance.is_some()
-        && let Some(exr) = &manifest.output.exr
-    {
+    let Some(exr) = manifest.output.exr.as_ref().filter(|_| outputs.spectrum()) else { return };
+    if manifest.picture.tolerance.is_some() {
         let what = "a spectrum needs the same wavelengths in all pixels: with a `tolerance` each has its own";
         let hint = "leave `tolerance` out and say `samples` and `wavelengths`, or leave out `spectrum`";
         report.fault(exr.place.clone(), what, hint);
+    }
+    let eyes = manifest.observer.stereo.as_ref();
+    if eyes.is_some_and(|eyes| eyes.layout == manifest::Layout::Anaglyph) {
+        let what = "an anaglyph has no spectrum: it is two pictures in the colours of one";
+        report.fault(exr.place.clone(), what, "stereo: { layout: side_by_side }, or leave out `spectrum`");
     }
 }

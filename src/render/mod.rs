@@ -13,6 +13,7 @@ use crate::observer::View;
 use crate::output::{self, FilmKind, Making};
 use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
+use crate::stereo::{self, Layout, Side, Stereo};
 use scales::Scales;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -84,12 +85,30 @@ pub fn render(
     tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
     let mut tell = tell;
+    // Both eyes' films are developed alike.
+    let mut known = None;
+    if !scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) {
+        return render_film(scene, plan, chosen, &mut known, tell);
+    }
+    Side::BOTH.into_iter().try_for_each(|side| {
+        let plan = Plan { eye: Some(side), folder: plan.folder.join(side.name()), ..plan.clone() };
+        render_film(scene, &plan, chosen.clone(), &mut known, &mut tell)
+    })
+}
+
+fn render_film(
+    scene: &Scene,
+    plan: &Plan,
+    chosen: std::ops::Range<usize>,
+    known: &mut Option<Development>,
+    mut tell: impl FnMut(Step) + Send,
+) -> Result<(), Error> {
     let folder = folder::open(plan, &chosen, &mut tell)?;
     if !folder.kept.is_empty() {
         tell(Step::Kept(folder.kept.len()));
     }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
-    let development = development(scene, plan);
+    let development = &*known.get_or_insert_with(|| development(scene, plan));
     tell(Step::Metered(development.white));
     let scales = scales::of(scene, plan);
     let comment = about::lines(&about::of_film(plan, development.white));
@@ -111,11 +130,11 @@ pub fn render(
             let exposed: Exposed = last
                 .take()
                 .filter(|_| plan.still)
-                .unwrap_or_else(|| exposed(scene, plan, exposure, &development));
+                .unwrap_or_else(|| exposed(scene, plan, exposure, development));
             if plan.still {
                 last = Some(exposed.clone());
             }
-            let print = print(scene, plan, exposure, &development, exposed);
+            let print = print(scene, plan, exposure, development, exposed);
             if prints.send(Sheet::New(Box::new(print))).is_err() {
                 break; // The writer has stopped and says why.
             }
@@ -139,23 +158,41 @@ fn start(plan: &Plan, path: &Path, comment: &str) -> Result<Making, Error> {
 }
 
 fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
-    scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height)
+    let view = scene.observer.view(exposure.tau, plan.sampling.width, plan.sampling.height);
+    match (plan.eye, scene.observer.stereo) {
+        (Some(side), Some(eyes)) => view.eye(side, eyes.apart),
+        _ => view,
+    }
 }
 
 fn exposed(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Development) -> Exposed {
     // Of a still film always the first, so that a part of it has the same bytes.
     let exposure = if plan.still { &plan.exposures[0] } else { exposure };
     let view = view(scene, plan, exposure);
+    let of = |view: &View| exposed_by(scene, plan, view, development);
+    let Some(Stereo { apart, layout: Layout::Anaglyph }) = scene.observer.stereo else { return of(&view) };
+    let [left, right] = Side::BOTH.map(|side| of(&view.eye(side, apart)));
+    let settling = left.settling.zip(right.settling).map(|(one, other)| Settling {
+        error: Uncertainty {
+            mean: one.error.mean.max(other.error.mean),
+            p99: one.error.p99.max(other.error.p99),
+        },
+        samples: one.samples + other.samples,
+    });
+    Exposed { negative: stereo::anaglyph(&left.negative, &right.negative), settling, bands: None }
+}
+
+fn exposed_by(scene: &Scene, plan: &Plan, view: &View, development: &Development) -> Exposed {
     if let Some(tolerance) = plan.tolerance {
-        let settled = expose_settled(&scene.lit(), &view, &plan.sampling, development, tolerance);
+        let settled = expose_settled(&scene.lit(), view, &plan.sampling, development, tolerance);
         let settling = Settling { error: settled.error, samples: settled.samples };
         return Exposed { negative: settled.negative, settling: Some(settling), bands: None };
     }
     if plan.outputs.spectrum() {
-        let (negative, bands) = expose_spectral(scene, &view, &plan.sampling);
+        let (negative, bands) = expose_spectral(scene, view, &plan.sampling);
         return Exposed { negative, settling: None, bands: Some(bands) };
     }
-    Exposed { negative: expose(scene, &view, &plan.sampling), settling: None, bands: None }
+    Exposed { negative: expose(scene, view, &plan.sampling), settling: None, bands: None }
 }
 
 fn print(

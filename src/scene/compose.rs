@@ -2,7 +2,7 @@
 
 use super::materials::{Owner, Workshop};
 use super::models::{Chosen, Model, Models};
-use super::{Placement, Scene, WorldBuilder, light, sky, solids};
+use super::{Placement, Scene, WorldBuilder, camera, light, sky, solids};
 use crate::error::Report;
 use crate::import;
 use crate::manifest::{self, LookAt, Manifest, MaterialKind, ModelFile};
@@ -52,7 +52,7 @@ pub fn compose_rest(manifest: &Manifest, path: &Path, report: &mut Report) -> Sc
     let surroundings: Vec<_> =
         manifest.surroundings.iter().map(|sky| sky::sky(sky, &mut gathered.workshop, report)).collect();
     let effects = effects(&manifest.effects);
-    let observer = observer(manifest, report);
+    let observer = observer(manifest, &models, report);
     let dark = gathered.lamps.is_empty()
         && surroundings.is_empty()
         && gathered.ambient.iter().all(Source::is_dark)
@@ -237,10 +237,16 @@ fn surfaces(
     asset.materials.iter().zip(instead).map(surface).collect()
 }
 
-fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
+fn observer(manifest: &Manifest, models: &Models, report: &mut Report) -> Observer {
     let written = &manifest.observer;
+    let unaberrated = unaberrated(manifest, report);
+    if let manifest::Worldline::Camera(camera) = &written.worldline
+        && let Some(shot) = camera::shot(camera, manifest, models, report)
+    {
+        return shot.observer(written, unaberrated);
+    }
     let course = match &written.worldline {
-        manifest::Worldline::Rest => Course::Inertial,
+        manifest::Worldline::Rest | manifest::Worldline::Camera(_) => Course::Inertial,
         manifest::Worldline::Rocket(rocket) if rocket.acceleration == DVec3::ZERO => Course::Inertial,
         manifest::Worldline::Rocket(rocket) => Course::Rocket { acceleration: rocket.acceleration },
         manifest::Worldline::Orbit(orbit) => Course::Orbit {
@@ -272,7 +278,9 @@ fn observer(manifest: &Manifest, report: &mut Report) -> Observer {
         aim,
         up: written.up,
         lens: written.optics(),
-        unaberrated: unaberrated(manifest, report),
+        unaberrated,
+        filmed: None,
+        stereo: written.stereo.as_ref().map(manifest::Stereo::eyes),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The scene as meant: bodies in their rest frames, surfaces, lamps, the observer. Immutable once built.
 
+mod camera;
 mod compose;
 mod light;
 mod materials;

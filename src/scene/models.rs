@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Report, nearest_name};
 use crate::import::{self, Asset};
-use crate::manifest::{AssetRef, Body, Manifest, ModelFile};
+use crate::manifest::{AssetRef, Body, Manifest, ModelFile, Worldline};
 use crate::mesh::Mesh;
 use crate::triangles::Triangles;
 use rayon::prelude::*;
@@ -35,12 +35,18 @@ impl Chosen {
 }
 
 impl Models {
-    /// Reads the files of all assets that bodies use, side by side.
+    /// Reads the files of all assets that bodies (or the observer) use, side by side.
     pub(super) fn load(manifest: &Manifest, manifest_path: &Path, report: &mut Report) -> Self {
+        let camera = match &manifest.observer.worldline {
+            Worldline::Camera(camera) => Some(&camera.asset.value),
+            _ => None,
+        };
         let mut files: Vec<&Path> = manifest
             .bodies
             .iter()
-            .filter_map(|body| Some(manifest.assets.get(&body.asset.value)?.file()?.file.value.as_path()))
+            .map(|body| &body.asset.value)
+            .chain(camera)
+            .filter_map(|asset| Some(manifest.assets.get(asset)?.file()?.file.value.as_path()))
             .collect();
         files.sort_unstable();
         files.dedup();
@@ -65,6 +71,11 @@ impl Models {
             }
         }
         Self(models)
+    }
+
+    /// What is in a file.
+    pub(super) fn asset(&self, file: &Path) -> Option<&Asset> {
+        self.get(file).map(|model| &model.asset)
     }
 
     fn get(&self, file: &Path) -> Option<&Model> {

@@ -5,6 +5,9 @@ use glam::DVec3;
 /// The greatest Lorentz factor of a path through keys: γ comes from a β there, and its last digit is a part 1e-7 of it.
 const GREATEST_GAMMA: f64 = 1e4;
 
+/// Parts of a piece that are looked at for its greatest speed; beyond, the bound is what is known till then.
+const MOST_HALVED: usize = 10_000;
+
 /// Nodes and weights of Gauss and Legendre's rule with eight points (the positive half; Abramowitz and Stegun, table 25.4).
 const RULE: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -245,6 +248,11 @@ impl Piece {
         let last = self.velocity + (self.bend[0] + self.bend[1]) * (0.5 * length);
         let mut waiting = vec![([self.velocity, middle, last], self.from, self.to)];
         let (mut bound, mut best) = (0.0_f64, (-1.0, self.from));
+        let known = [self.velocity, middle, last].iter().all(|v| v.length_squared().is_finite());
+        if !known || !(length > 0.0) {
+            return (f64::INFINITY, self.from);
+        }
+        let mut steps = 0;
         while let Some(([a, b, c], from, to)) = waiting.pop() {
             for (v, t) in [(a, from), (c, to)] {
                 if !(v.length_squared() <= best.0) {
@@ -254,7 +262,8 @@ impl Piece {
             let squares = [a.dot(a), a.dot(b), (a.dot(c) + 2.0 * b.dot(b)) / 3.0, b.dot(c), c.dot(c)];
             let most = squares.into_iter().fold(0.0, f64::max);
             let at = 0.5 * (from + to);
-            if !(most > best.0 * (1.0 + 1e-9)) || !(from < at && at < to) {
+            steps += 1;
+            if !(most > best.0 * (1.0 + 1e-9)) || !(from < at && at < to) || steps > MOST_HALVED {
                 bound = bound.max(most);
                 continue;
             }
@@ -262,7 +271,6 @@ impl Piece {
             let centre = 0.5 * (ab + bc);
             waiting.extend([([a, ab, centre], from, at), ([centre, bc, c], at, to)]);
         }
-        let known = self.velocity.is_finite() && last.is_finite() && length > 0.0;
-        (if known { bound.max(best.0).sqrt() } else { f64::INFINITY }, best.1)
+        (bound.max(best.0).sqrt(), best.1)
     }
 }

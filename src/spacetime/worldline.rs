@@ -130,6 +130,14 @@ impl Worldline {
         }
     }
 
+    /// The proper time at which the starting frame's time is `t`, of a course at rest there or through keys.
+    pub fn tau_at_start(&self, t: f64) -> f64 {
+        match &self.course {
+            Course::Keyed(track) => track.own(t),
+            _ => t,
+        }
+    }
+
     /// Where the observer is at proper time `tau`, and the axes it carries: those of the starting frame, boosted.
     pub fn at(&self, tau: f64) -> Tetrad {
         let (event, velocity) = self.in_start(tau);

@@ -126,6 +126,6 @@ fn animations_are_named_even_those_that_only_extensions_describe() {
         { "channels": [], "samplers": [] },
     ]);
     let asset = model.asset();
-    assert_eq!(asset.animations, ["Turn", ""]);
+    assert_eq!(asset.animations.iter().map(|a| a.name.as_str()).collect::<Vec<_>>(), ["Turn", ""]);
     assert!(warns(&asset, "KHR_animation_pointer"));
 }

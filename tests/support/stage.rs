@@ -13,6 +13,7 @@ use terrell::solid::Solid;
 use terrell::spacetime::{Course, Event, Poincare, SightRay, Velocity, Worldline};
 use terrell::spectrum::Index;
 use terrell::spectrum::Source;
+use terrell::stereo::Stereo;
 use terrell::surface::{Absorption, Glass, Medium, Scatter, Surface};
 use terrell::trace::Effects;
 use terrell::triangles::Triangles;
@@ -253,6 +254,7 @@ pub(crate) struct Eye {
     pub(crate) aim: Aim,
     pub(crate) up: DVec3,
     pub(crate) lens: Lens,
+    pub(crate) stereo: Option<Stereo>,
 }
 
 impl Eye {
@@ -266,6 +268,7 @@ impl Eye {
             aim: Aim::Along(DVec3::NEG_Z),
             up: DVec3::Y,
             lens: Lens::Pinhole { across: 60.0_f64.to_radians() },
+            stereo: None,
         }
     }
 
@@ -292,6 +295,8 @@ impl Eye {
             up: self.up,
             lens: self.lens,
             unaberrated: None,
+            filmed: None,
+            stereo: self.stereo,
         }
     }
 

@@ -36,8 +36,8 @@ pub(super) struct Document<'a> {
     pub root: json::Root,
     /// The bytes of the buffers, as many as each says; empty for one at fault.
     pub buffers: Vec<Cow<'a, [u8]>>,
-    /// Names of the animations.
-    pub animations: Vec<String>,
+    /// The animations as written, not checked.
+    pub animations: Vec<Value>,
     /// Whether `KHR_mesh_quantization` allows integers for positions and normals.
     pub quantized: bool,
     /// Which materials have a `pbrMetallicRoughness`, the place of the base colour.
@@ -57,7 +57,10 @@ pub(super) fn open<'a>(bytes: &'a [u8], job: &mut Job) -> Option<Document<'a>> {
     if job.faults > before {
         return None;
     }
-    let animations = names(&value["animations"]);
+    let animations = match value["animations"].take() {
+        Value::Array(animations) => animations,
+        _ => Vec::new(),
+    };
     let colored = list(&value["materials"]).iter().map(|m| m.get("pbrMetallicRoughness").is_some()).collect();
     trim(&mut value);
     let root: json::Root = match serde_json::from_value(value) {
@@ -149,10 +152,6 @@ fn list(value: &Value) -> &[Value] {
 
 fn strings(value: &Value) -> impl Iterator<Item = &str> {
     list(value).iter().filter_map(Value::as_str)
-}
-
-fn names(value: &Value) -> Vec<String> {
-    list(value).iter().map(|entry| entry["name"].as_str().unwrap_or("").to_owned()).collect()
 }
 
 fn versions(value: &Value, job: &mut Job) -> bool {

@@ -5,9 +5,10 @@
 //!
 //! Read: the default scene with its nodes, meshes (triangles, strips, fans), materials, lights and cameras, and
 //! the extensions in [`document::SUPPORTED`]. Skinned and morphed meshes stand in their rest pose. Animations
-//! and ambient occlusion are passed over.
+//! move cameras only; ambient occlusion is passed over.
 
 mod accessor;
+mod animation;
 mod buffer;
 mod document;
 mod extension;
@@ -34,13 +35,14 @@ pub(super) fn read<T: Send>(
         || material::all(&document, job),
         || {
             let mut placed = scene::place(&document, &mut part)?;
+            let animations = animation::all(&document, &placed, &mut part);
             let read = meshes(&document, &mut placed.instances, &mut part)?;
             let made = make(&read.meshes);
-            Some((placed, read, made))
+            Some((placed, animations, read, made))
         },
     );
     job.found_by(part);
-    let (placed, Meshes { meshes, skins }, made) = placed?;
+    let (placed, animations, Meshes { meshes, skins }, made) = placed?;
     for skin in &skins {
         skin.check_textures(&materials, job);
     }
@@ -52,7 +54,7 @@ pub(super) fn read<T: Send>(
         instances: placed.instances,
         lights: placed.lights,
         cameras: placed.cameras,
-        animations: document.animations.clone(),
+        animations,
         ..Asset::default()
     };
     if asset.meshes.iter().any(|mesh| uses(mesh, asset.materials.len())) {

@@ -1,7 +1,7 @@
 //! Nodes and what hangs on them, placed in the asset's space.
 
 use super::document::Document;
-use crate::import::{Camera, Instance, Job, Light, LightKind, Node};
+use crate::import::{Camera, Instance, Job, Light, LightKind, Node, Pose};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light as WrittenLight, Type as WrittenKind};
@@ -14,6 +14,8 @@ const FLAT: f64 = 1e-12;
 #[derive(Default)]
 pub(super) struct Placed {
     pub nodes: Vec<Node>,
+    /// Their numbers in the file.
+    pub numbers: Vec<usize>,
     /// Meshes by their number in the file.
     pub instances: Vec<Instance>,
     pub lights: Vec<Light>,
@@ -33,14 +35,16 @@ pub(super) fn place(document: &Document<'_>, job: &mut Job) -> Option<Placed> {
     while let Some((number, parent)) = waiting.pop() {
         let Some(node) = document.root.nodes.get(number) else { continue };
         let outer = parent.map_or(DAffine3::IDENTITY, |p| placed.nodes[p].asset_from_node);
-        let inner = transform(node, number, job);
+        let pose = pose(node, number, job);
+        let inner = pose.map();
         let asset_from_node = outer * inner;
         if inner.is_finite() && !asset_from_node.is_finite() {
             let what = "its place is beyond all numbers, together with its parents'";
             job.fault(format!("nodes[{number}]"), what, "");
         }
         let here = placed.nodes.len();
-        placed.nodes.push(Node { name: super::name(node.name.as_ref()), parent, asset_from_node });
+        placed.nodes.push(Node { name: super::name(node.name.as_ref()), parent, pose, asset_from_node });
+        placed.numbers.push(number);
         contents(document, node, (number, here), &mut placed, job);
         let children = node.children.iter().flatten().rev();
         waiting.extend(children.map(|child| (child.value(), Some(here))));
@@ -106,7 +110,7 @@ fn roots(document: &Document<'_>, parents: &[Option<usize>], job: &mut Job) -> O
 }
 
 /// A node's place in its parent.
-fn transform(node: &json::Node, number: usize, job: &mut Job) -> DAffine3 {
+fn pose(node: &json::Node, number: usize, job: &mut Job) -> Pose {
     let written = if let Some(matrix) = node.matrix {
         let m = matrix.map(f64::from);
         let last = [m[3], m[7], m[11], m[15] - 1.0];
@@ -116,7 +120,7 @@ fn transform(node: &json::Node, number: usize, job: &mut Job) -> DAffine3 {
         }
         let column = |i: usize| DVec3::new(m[i], m[i + 1], m[i + 2]);
         let matrix3 = DMat3::from_cols(column(0), column(4), column(8));
-        ("matrix", DAffine3 { matrix3, translation: column(12) })
+        ("matrix", Pose::Matrix(DAffine3 { matrix3, translation: column(12) }))
     } else {
         let vector = |v: Option<[f32; 3]>, or| v.map_or(or, |v| DVec3::from_array(v.map(f64::from)));
         let rotation = node.rotation.unwrap_or_default().0.map(f64::from);
@@ -124,20 +128,17 @@ fn transform(node: &json::Node, number: usize, job: &mut Job) -> DAffine3 {
         let length = rotation.length();
         if !(length > 0.0 && length.is_finite()) {
             job.fault(format!("nodes[{number}].rotation"), "is not a quaternion with a direction", "");
-            return DAffine3::IDENTITY;
+            return Pose::Matrix(DAffine3::IDENTITY);
         }
         let scale = vector(node.scale, DVec3::ONE);
         let translation = vector(node.translation, DVec3::ZERO);
-        (
-            "translation or scale",
-            DAffine3::from_scale_rotation_translation(scale, rotation / length, translation),
-        )
+        ("translation or scale", Pose::Parts { scale, rotation: rotation / length, translation })
     };
-    let (key, transform) = written;
-    if !transform.is_finite() {
+    let (key, pose) = written;
+    if !pose.map().is_finite() {
         job.fault(format!("nodes[{number}].{key}"), "is not finite", "");
     }
-    transform
+    pose
 }
 
 /// Mesh, camera and light of a node (its number in the file, its number here).

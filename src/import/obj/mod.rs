@@ -38,7 +38,12 @@ pub(super) fn read(bytes: &[u8], job: &mut Job) -> Option<Asset> {
     }
     for (i, mesh) in meshes.into_iter().enumerate() {
         let name = mesh.name.clone();
-        asset.nodes.push(Node { name, parent: None, asset_from_node: DAffine3::IDENTITY });
+        asset.nodes.push(Node {
+            name,
+            parent: None,
+            pose: crate::import::Pose::Matrix(DAffine3::IDENTITY),
+            asset_from_node: DAffine3::IDENTITY,
+        });
         asset.instances.push(Instance { mesh: i, asset_from_mesh: DAffine3::IDENTITY, node: i });
         asset.meshes.push(Arc::new(mesh));
     }
