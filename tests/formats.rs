@@ -267,7 +267,7 @@ fn planned(text: &str) -> (Plan, Vec<String>) {
     let manifest = manifest::parse(path, text, &mut report).unwrap();
     let scene = compose(&manifest, path, &mut report).unwrap();
     let plan = Plan::of(&manifest, &scene, path, &mut report);
-    (plan, report.faults.iter().map(|fault| fault.to_string()).collect())
+    (plan, report.faults.iter().map(ToString::to_string).collect())
 }
 
 #[test]

@@ -134,7 +134,7 @@ fn phase(number: u32) -> f64 {
 
 /// What stands first in the way at each pixel's centre.
 pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
-    first_and(scene, view, (width, height), |lit, ray| lit.first(ray))
+    first_and(scene, view, (width, height), Lit::first)
 }
 
 /// The same with the colours of surfaces by daylight at rest, linear sRGB.
@@ -145,11 +145,11 @@ pub fn first_colors(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<
     first_and(scene, view, (width, height), |lit, ray| lit.first_and(ray, color))
 }
 
-fn first_and<T: Send + Clone>(
-    scene: &Scene,
+fn first_and<'s, T: Send + Clone>(
+    scene: &'s Scene,
     view: &View,
     (width, height): (u32, u32),
-    of: impl Fn(&Lit<'_>, &SightRay) -> Option<T> + Sync,
+    of: impl Fn(&Lit<'s>, &SightRay) -> Option<T> + Sync,
 ) -> Vec<Option<T>> {
     let lit = scene.lit().seen_from(view.tetrad.event);
     let first = |column: usize, row: usize| {

@@ -62,7 +62,11 @@ fn words(shape: &Shape) -> String {
         Shape::List(of) => format!("a list: {}", words(&of())),
         Shape::Map(of) => format!("names of your own, each with: {}", words(&of())),
         Shape::Record(record) => {
-            format!("[{}](#{})", record.title, record.title.replace(' ', "-").replace('\'', ""))
+            format!(
+                "[{}](#{})",
+                record.title,
+                record.title.to_lowercase().replace(' ', "-").replace('\'', "")
+            )
         }
         Shape::Either(shapes) => shapes.iter().map(words).collect::<Vec<_>>().join("; or "),
     }

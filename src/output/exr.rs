@@ -147,7 +147,9 @@ pub fn check_exr(path: &Path, form: &ExrForm) -> Result<(), Error> {
         return Err(Error::machine(path, "reading", other));
     }
     let reader = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels();
-    reader.first_valid_layer().all_attributes().from_file(path).map(|_| ()).map_err(wrong)
+    // Many are read at once.
+    let reader = reader.first_valid_layer().all_attributes().non_parallel();
+    reader.from_file(path).map(|_| ()).map_err(wrong)
 }
 
 /// What an `OpenEXR` file is like.

@@ -53,7 +53,7 @@ impl Scale {
 
     /// For times (seconds) of which nearly all are given. 96 in 100 are within it.
     pub fn of_seconds(times: impl IntoIterator<Item = f64>) -> Self {
-        let mut times: Vec<f64> = times.into_iter().filter(|time| time.is_finite()).collect();
+        let mut times: Vec<f64> = times.into_iter().filter(|seconds| seconds.is_finite()).collect();
         let first = quantile(&mut times, 2).unwrap_or(0.0);
         let last = quantile(&mut times, 98).unwrap_or(0.0);
         // Not finer than numbers are told apart.
@@ -169,17 +169,18 @@ fn legend(width: usize, scale: &Scale) -> Vec<[u8; 3]> {
     let dot = dot(width);
     let mut sheet = Sheet { pixels: vec![PAPER; width * LEGEND * dot], width, dot };
     let margin = (MARGIN * dot).min(width / 8);
-    let bar = (width - 2 * margin).max(1);
-    for column in 0..bar {
-        let color = scale.color((column as f64 + 0.5) / bar as f64);
+    let strip = (width - 2 * margin).max(1);
+    for column in 0..strip {
+        let color = scale.color((column as f64 + 0.5) / strip as f64);
         sheet.fill((margin + column, 1), (ROWS[1] * dot, 8 * dot), color);
     }
-    let title = scale.titles().into_iter().find(|title| title.len() * WIDE * dot <= bar).unwrap_or_default();
+    let title =
+        scale.titles().into_iter().find(|title| title.len() * WIDE * dot <= strip).unwrap_or_default();
     sheet.write(title, margin, ROWS[0]);
     // Each name keeps away from those before it.
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (value, name) in scale.marks() {
-        let at = margin + ((scale.part(value) * bar as f64) as usize).min(bar - 1);
+        let at = margin + ((scale.part(value) * strip as f64) as usize).min(strip - 1);
         let wide = name.len() * WIDE * dot;
         let from = at.saturating_sub(wide / 2).min(width.saturating_sub(wide));
         let to = from + wide;

@@ -1,6 +1,6 @@
 //! GIF films: one palette of 255 colours for the whole film, so that nothing flickers.
 //!
-//! GIF89a (CompuServe, 1990), with Netscape's extension to play for ever. Colours between two of the palette are shown by an
+//! `GIF89a` (`CompuServe`, 1990), with Netscape's extension to play for ever. Colours between two of the palette are shown by an
 //! ordered pattern, and what is as before in a pixel is not written again.
 
 use super::palette::{COLORS, Histogram, Palette};

@@ -176,8 +176,7 @@ pub fn parts(scene: &Scene, plan: &Plan) -> Vec<Part> {
         (_, Some(_)) => "16 to 64 wavelengths, as each pixel needs".to_owned(),
     };
     let three = three_wavelengths(scene);
-    let why =
-        if three.yes && plan.outputs.spectrum() { "their spectrum is written".into() } else { three.why };
+    let why = if three.yes && plan.outputs.spectrum() { "their spectrum is written" } else { three.why };
     parts.push(Part::new("spectra", wavelengths, why));
     parts.push(lines(scene));
     let dispersing = scene.media.iter().any(|medium| medium.index.disperses());

@@ -42,14 +42,10 @@ impl Picture {
 pub struct Outputs {
     /// Whether PNG pictures have 16 bits a channel.
     pub sixteen: bool,
-    /// Whether BMP pictures are wanted.
-    pub bmp: bool,
+    /// The files of each exposure, in the order in which they are written.
+    pub pictures: Vec<Picture>,
     /// What OpenEXR files hold, if they are wanted.
     pub exr: Option<Measured>,
-    /// Whether pictures of the Doppler factor are wanted.
-    pub doppler: bool,
-    /// Whether pictures of emission times are wanted.
-    pub emission_time: bool,
 }
 
 /// What an OpenEXR file holds.
@@ -70,25 +66,18 @@ impl Outputs {
     /// What a manifest asks for.
     pub(super) fn of(output: &manifest::Output) -> Self {
         let measured = |exr: &manifest::Exr| Measured { depth: exr.depth, layers: exr.layers.clone() };
-        Self {
-            sixteen: output.png == 16,
-            bmp: output.bmp,
-            exr: output.exr.as_ref().map(measured),
-            doppler: output.doppler,
-            emission_time: output.emission_time,
-        }
-    }
-
-    /// The files of each exposure, in the order in which they are written.
-    pub fn pictures(&self) -> Vec<Picture> {
         let wanted = |picture: &Picture| match picture {
-            Picture::Exr => self.exr.is_some(),
-            Picture::Bmp => self.bmp,
-            Picture::Doppler => self.doppler,
-            Picture::EmissionTime => self.emission_time,
+            Picture::Exr => output.exr.is_some(),
+            Picture::Bmp => output.bmp,
+            Picture::Doppler => output.doppler,
+            Picture::EmissionTime => output.emission_time,
             Picture::Png => true,
         };
-        Picture::ALL.into_iter().filter(wanted).collect()
+        Self {
+            sixteen: output.png == 16,
+            pictures: Picture::ALL.into_iter().filter(wanted).collect(),
+            exr: output.exr.as_ref().map(measured),
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use std::path::Path;
 pub(super) fn write(plan: &Plan, print: &Print, scales: Option<&Scales>) -> Result<(), Error> {
     let (width, height) = (print.negative.width, print.negative.height);
     let (rgb, text) = (&print.rgb, &print.text);
-    for picture in plan.outputs.pictures() {
+    for picture in plan.outputs.pictures.iter().copied() {
         let path = plan.picture(print.exposure.index, picture);
         match picture {
             Picture::Exr => {
@@ -64,7 +64,7 @@ pub(super) fn are_whole(plan: &Plan, index: usize) -> bool {
     let Ok(png) = read_png(plan, index) else { return false };
     let size = (plan.sampling.width, plan.sampling.height);
     png.sixteen == plan.outputs.sixteen
-        && plan.outputs.pictures().into_iter().all(|picture| {
+        && plan.outputs.pictures.iter().copied().all(|picture| {
             let path = plan.picture(index, picture);
             match picture {
                 Picture::Png => true,

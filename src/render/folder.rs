@@ -52,7 +52,7 @@ pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Ste
         let ours = there.iter().filter(|one| chosen.contains(&one.index) && one.is_of(plan, own));
         let named: BTreeSet<(usize, Picture)> = ours.map(|one| (one.index, one.picture)).collect();
         let texted: Vec<Picture> =
-            plan.outputs.pictures().into_iter().filter(|one| has_texts(*one)).collect();
+            plan.outputs.pictures.iter().copied().filter(|one| has_texts(*one)).collect();
         let complete = |index: &usize| texted.iter().all(|picture| named.contains(&(*index, *picture)));
         let complete: Vec<usize> = chosen.clone().filter(complete).collect();
         kept = complete.into_par_iter().filter(|index| files::are_whole(plan, *index)).collect();
@@ -188,7 +188,9 @@ fn refuse_others(plan: &Plan, own: &Fingerprint, there: &[There]) -> Result<(), 
     let film: BTreeSet<PathBuf> = plan
         .exposures
         .iter()
-        .flat_map(|exposure| plan.outputs.pictures().into_iter().map(|one| plan.picture(exposure.index, one)))
+        .flat_map(|exposure| {
+            plan.outputs.pictures.iter().copied().map(|one| plan.picture(exposure.index, one))
+        })
         .collect();
     let other = there.iter().find(|one| match &one.fingerprint {
         Some(other) => other != own,

@@ -50,7 +50,7 @@ pub(super) fn asks_rays(plan: &Plan) -> bool {
     let outputs = &plan.outputs;
     let measured = |layer: &Layer| !matches!(layer, Layer::Radiance | Layer::Xyz | Layer::Spectrum);
     let exr = outputs.exr.as_ref().is_some_and(|exr| exr.layers.iter().any(measured));
-    exr || outputs.doppler || outputs.emission_time
+    exr || outputs.pictures.iter().any(|picture| matches!(picture, Picture::Doppler | Picture::EmissionTime))
 }
 
 /// A number of what is seen at each pixel's centre, for false colours.

@@ -18,7 +18,7 @@ pub(super) struct Scales {
 
 /// Those of a film, if it has such pictures.
 pub(super) fn of(scene: &Scene, plan: &Plan) -> Option<Scales> {
-    let pictures = plan.outputs.pictures();
+    let pictures = &plan.outputs.pictures;
     if !pictures.iter().any(|picture| matches!(picture, Picture::Doppler | Picture::EmissionTime)) {
         return None;
     }
