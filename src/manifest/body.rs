@@ -257,6 +257,9 @@ impl Kind for FileMaterials {
     }
 }
 
+/// Bodies that are looked at though others have faults.
+const MOST_OF_REST: usize = 1000;
+
 /// The bodies, whose names are known from here on.
 pub(crate) struct Bodies;
 
@@ -292,7 +295,7 @@ impl Kind for Bodies {
             }
         }
         let bodies = each::<Body>(items, reader);
-        reader.rest.bodies = bodies.iter().flatten().cloned().collect();
+        reader.rest.bodies = bodies.iter().flatten().take(MOST_OF_REST).cloned().collect();
         sound.and_then(|()| bodies.into_iter().collect())
     }
 }

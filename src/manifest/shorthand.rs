@@ -11,6 +11,7 @@ use super::record::{Record, choice, record};
 use super::{Exposures, Manifest};
 use crate::spacetime::Velocity;
 use glam::DVec3;
+use std::rc::Rc;
 
 choice! {
     /// Observer and exposures in short.
@@ -75,7 +76,24 @@ record! {
 }
 
 /// The keys of a shorthand that is written.
-const KEYS: [&str; 2] = ["turntable", "flyby"];
+pub(super) const KEYS: [&str; 2] = ["turntable", "flyby"];
+
+/// The keys of an observer that a shorthand says.
+fn taken() -> Vec<&'static str> {
+    Placement::fields().into_iter().chain(Worldline::fields()).map(|field| field.key).collect()
+}
+
+/// Takes away what a shorthand says, where one is put on top of another manifest.
+pub(super) fn make_way(root: &mut Node) {
+    let Content::Map(entries) = &mut root.content else { return };
+    entries.retain(|entry| entry.key != "exposures");
+    let Some(observer) = entries.iter_mut().find(|entry| entry.key == "observer") else { return };
+    let views = View::fields().into_iter().map(|field| field.key);
+    let said: Vec<_> = taken().into_iter().chain(views).collect();
+    if let Content::Map(entries) = &mut Rc::make_mut(&mut observer.value).content {
+        entries.retain(|entry| !said.contains(&entry.key.as_str()));
+    }
+}
 
 /// Faults what a shorthand says already.
 pub(super) fn check(root: &Node, reader: &mut Reader<'_>) -> Read<()> {
@@ -90,8 +108,7 @@ pub(super) fn check(root: &Node, reader: &mut Reader<'_>) -> Read<()> {
         sound = Err(reader.fault_and(&exposures.place, says, what, hint));
     }
     let Some(Content::Map(entries)) = root.get("observer").map(|node| &node.content) else { return sound };
-    let taken: Vec<_> =
-        Placement::fields().into_iter().chain(Worldline::fields()).map(|field| field.key).collect();
+    let taken = taken();
     for entry in entries.iter().filter(|entry| taken.contains(&entry.key.as_str())) {
         let what = format!("`{key}` says already where the observer is and how it moves");
         let hint = format!("remove `{}` here, or write all out in place of `{key}`", entry.key);

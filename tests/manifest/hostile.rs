@@ -193,6 +193,94 @@ const VALUES: &[&str] = &[
     "9e307 9e307 9e307 m",
 ];
 
+/// Places for values, one each.
+const SLOTS: &[&str] = &[
+    "observer: { at: @ }",
+    "observer: { at_time: @ }",
+    "observer: { velocity: @ }",
+    "observer: { velocity: { gamma: @, along: 1 0 0 } }",
+    "observer: { velocity: { gamma: 2, along: @ } }",
+    "observer: { velocity: { gamma_beta: @ } }",
+    "observer: { rotation: @ }",
+    "observer: { rotation: { quaternion: @ } }",
+    "observer: { up: @ }",
+    "observer: { field_of_view: @ }",
+    "observer: { rocket: { acceleration: @ } }",
+    "observer: { orbit: { radius: @, speed: 0.5 c } }",
+    "observer: { orbit: { radius: 1 m, speed: @ } }",
+    "observer: { orbit: { radius: 1 m, speed: { rapidity: @ } } }",
+    "observer: { ring: { radius: 1 m, turns: @ } }",
+    "exposures: { at: @ }",
+    "exposures: { from: 0 s, to: 1 s, count: @ }",
+    "exposures: { from: 0 s, to: 1 s, count: 2, clock: @ }",
+    "picture: { size: @ }",
+    "picture: { samples: @ }",
+    "picture: { depth: @ }",
+    "picture: { wavelengths: @ }",
+    "picture: { faintest: @ }",
+    "picture: { tolerance: @ }",
+    "picture: { filter: @ }",
+    "picture: { white: @ }",
+    "picture: { stops: @ }",
+    "film: { rate: @ }",
+    "film: { video: @ }",
+    "effects: { doppler: @ }",
+    "light_speed: @",
+    "spectra: { a: { black_body: @ } }",
+    "spectra: { a: { line: @ } }",
+    "spectra: { a: { line: { centre: 500 nm, width: @ } } }",
+    "spectra: { a: { constant: @ } }",
+    "spectra: { a: { rgb: @ } }",
+    "lights: [{ lamp: { intensity: @ } }]",
+    "lights: [{ spot: { intensity: 1 cd, cone: @ } }]",
+    "lights: [{ lamp: { intensity: 1 cd }, blinking: { period: @ } }]",
+    "lights: [{ lamp: { intensity: 1 cd }, blinking: { period: 1 s, lit: @ } }]",
+    "ambient: { luminance: @ }",
+    "assets: { a: { sphere: { radius: @ } } }",
+    "assets: { a: { box: { size: @ } } }",
+    "assets: { a: { cone: { radius: 1 m, height: @ } } }",
+    "materials: { a: { metal: @ } }",
+    "materials: { a: { metal: gold, roughness: @ } }",
+    "materials: { a: { mirror: @ } }",
+    "surroundings: { stars: { count: @ } }",
+    "surroundings: { stars: { count: 3, seed: @ } }",
+    "surroundings: { stars: { count: 3, faintest: @ } }",
+    "turntable: { around: 0 0 0 m, radius: @ }",
+    "turntable: { around: 0 0 0 m, radius: 1 m, speed: @ }",
+    "flyby: { past: 0 0 0 m, distance: 1 m, speed: 0.5 c, reach: @ }",
+];
+
+/// What is nearly right, or is so elsewhere.
+const SLIPS: &[&str] = &[
+    "nan 0 0 c", "inf m", "1 2 c", "0 0 1 c", "2 c", "-1 c", "0 0 0 c", "5", "-5", "0", "0.5", "1e9", "1280", "1280x720", "3 4",
+    "0 m", "-3 m", "2 s", "0 s", "400 deg", "0 deg", "30", "3 cd", "-3 cd", "0 cd", "100 lx", "1e400 m", "1,5 m", "1, 2, 3 m",
+    "off", "none", "gol", "7.5", "300 K", "0 K", "589", "0 nm", "1_000 m", "0.9c", "1e3 1e3 1e3 km/s", "99 lightyears", "3 furlongs",
+];
+
+#[test]
+fn what_hints_say_to_type_is_no_fault() {
+    let mut typed = 0;
+    for slot in SLOTS {
+        let key = slot[..slot.find(": @").unwrap()].rsplit([' ', '{']).next().unwrap();
+        let rest = if slot.starts_with("observer") || slot.contains("around") || slot.contains("past") {
+            "output: out\n"
+        } else {
+            REST
+        };
+        for value in VALUES.iter().chain(SLIPS) {
+            let report = faults(&format!("{}\n{rest}", slot.replace('@', value)));
+            let [fault] = report.faults.as_slice() else { continue };
+            let Some(hint) = fault.hint.strip_prefix(&format!("{key}: ")) else { continue };
+            let end = [" (", ", or ", ", and ", "; "].iter().filter_map(|stop| hint.find(stop)).min();
+            let hint = &hint[..end.unwrap_or(hint.len())];
+            let again = faults(&format!("{}\n{rest}", slot.replace('@', hint)));
+            assert_eq!(again.faults, [], "{slot} with `{value}`: {} says `{hint}`", fault.what);
+            typed += 1;
+        }
+    }
+    assert!(typed > 1000, "{typed}");
+}
+
 /// Reads a text soon: in much less than a second, but machines are busy.
 fn soon(text: &str) -> usize {
     let begun = Instant::now();
@@ -290,4 +378,38 @@ fn depth_by_way_of_aliases_is_depth() {
     let mut text = "a0: &a0 [x]\n".to_owned();
     (1..100).for_each(|i| text.push_str(&format!("a{i}: &a{i} [*a{}]\n", i - 1)));
     assert_eq!(soon(&format!("{text}{REST}")), 1);
+}
+
+/// Texts of legal size that ask for as much as they can.
+fn greedy() -> Vec<String> {
+    let lots = |item: &str, count: usize| vec![item; count].join(", ");
+    vec![
+        format!("bodies: [{}]\n{REST}", lots("{}", 240_000)),
+        format!("bodies: [{}]\n{REST}", lots("{a: [b]}", 62_000)),
+        format!("bodies: [{}]\n{REST}", lots("{ asset: a }", 80_000)),
+        format!("spectra: {{ a: [{}] }}\n{REST}", lots("é", 249_000)),
+        format!("{}{REST}", (0..120_000).map(|i| format!("k{i}: {i}\n")).collect::<String>()),
+        format!("a: &a [{}]\nb: [{}]\n{REST}", lots("x", 400), lots("*a", 600)),
+        format!("a: [{}]\n{REST}", lots("[[[[x]]]]", 49_000)),
+        format!("a: [{}]\n{REST}", lots("\"x\"", 249_000)),
+        format!("# {}\n{REST}", "é".repeat(2_000_000)),
+        format!("bodies: [{}]\n{REST}", lots("1", 2_000_000)),
+    ]
+}
+
+/// The system counts what a process may write to; more than 100 MB are refused to it, and it ends by a signal.
+#[cfg(target_os = "linux")]
+#[test]
+fn greedy_texts_are_read_or_refused_within_100_megabytes() {
+    let folder = tempfile::tempdir().unwrap();
+    for (number, text) in greedy().iter().enumerate() {
+        let file = folder.path().join(format!("{number}.yaml"));
+        std::fs::write(&file, text).unwrap();
+        let begun = Instant::now();
+        let mut shell = std::process::Command::new("sh");
+        let limited = r#"ulimit -d 100000 && exec "$0" check "$1""#;
+        let output = shell.args(["-c", limited, env!("CARGO_BIN_EXE_terrell")]).arg(&file).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{number}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(begun.elapsed() < Duration::from_secs(5), "{number}: {:?}", begun.elapsed());
+    }
 }

@@ -1,6 +1,6 @@
 //! `turntable` and `flyby`: what they stand for.
 
-use super::{close, faults, read};
+use super::{close, faults, read, read_with};
 use glam::DVec3;
 use std::path::Path;
 use terrell::error::Report;
@@ -152,6 +152,22 @@ fn what_the_observer_says_of_the_picture_stays() {
     // From straight above nothing of the usual `up` would be seen: the way goes up.
     let m = read("flyby: { past: 0 0 0 m, distance: 1 m, speed: 0.5 c, side: 0 1 0 }\noutput: out\n");
     assert_eq!(m.observer.up, DVec3::X);
+}
+
+#[test]
+fn shorthands_on_the_command_line_take_the_place_of_what_is_written() {
+    let text = "observer: { orbit: { radius: 1 m, speed: 0.1 c }, direction: 1 0 0, field_of_view: 30 deg }\n\
+                exposures: { at: 3 s }\noutput: out\n";
+    let m = read_with(text, &[("turntable", "{ around: 0 0 0 m, radius: 2 m, count: 7 }")]);
+    assert!(matches!(&m.observer.worldline, Worldline::Ring(ring) if ring.radius == 2.0));
+    assert!(matches!(m.observer.view, View::LookAt(LookAt::Point(DVec3::ZERO))));
+    assert_eq!(m.exposures.count, 7);
+    assert!(close(m.observer.field_of_view, std::f64::consts::FRAC_PI_6));
+    let m = read_with(
+        "turntable: { around: 0 0 0 m, radius: 2 m }\noutput: out\n",
+        &[("flyby", "{ past: 0 0 0 m, distance: 1 m, speed: 0.5 c }"), ("flyby.count", "5")],
+    );
+    assert!(matches!(m.observer.worldline, Worldline::Rest) && m.exposures.count == 5);
 }
 
 #[test]
