@@ -93,7 +93,11 @@ impl Draft {
         let name: String = model_stem.chars().map(plain).collect();
         let name = name.trim_matches('_');
         Self {
-            name: if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name.to_owned() } else { format!("model_{name}") },
+            name: if name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                name.to_owned()
+            } else {
+                format!("model_{name}")
+            },
             file: quoted(&path_from(file.parent().unwrap_or(Path::new("")), model)),
             stem: stem.into_owned(),
             motion,
@@ -103,7 +107,12 @@ impl Draft {
             floor: (!has_floor(asset, (lo, hi))).then_some(lo.y),
             lit: asset.lights.is_empty() && !glows,
             white: None,
-            materials: asset.materials.iter().map(|material| material.name.clone()).filter(|name| !name.is_empty()).collect(),
+            materials: asset
+                .materials
+                .iter()
+                .map(|material| material.name.clone())
+                .filter(|name| !name.is_empty())
+                .collect(),
         }
     }
 
@@ -113,7 +122,9 @@ impl Draft {
         let text = self.text();
         let manifest = manifest::parse(file, &text, &mut report);
         let scene = manifest.as_ref().and_then(|manifest| compose(manifest, file, &mut report));
-        let (Some(manifest), Some(scene)) = (manifest, scene) else { return Err(Error::Input(report.faults)) };
+        let (Some(manifest), Some(scene)) = (manifest, scene) else {
+            return Err(Error::Input(report.faults));
+        };
         let plan = Plan::of(&manifest, &scene, file, &mut report);
         report.finish(Some(()))?;
         Ok(Seen::of(&scene, &plan))
@@ -245,15 +256,22 @@ impl Draft {
         let mut lines = Lines(String::new());
         let (way, stem) = (if self.motion == Motion::Flyby { "passed" } else { "circled" }, &self.stem);
         lines.0 += &format!("# {} is {way} at half the speed of light.\n", self.name);
-        lines.0 += &format!("# terrell check {stem}.yaml says what it needs; terrell render {stem}.yaml makes the film.\n");
+        lines.0 += &format!(
+            "# terrell check {stem}.yaml says what it needs; terrell render {stem}.yaml makes the film.\n"
+        );
         lines.0 += "# All keys there are: manifests/REFERENCE.md, or `terrell schema` for an editor.\n";
         let extent = format!("{} x {} x {} m", short(self.size.x), short(self.size.y), short(self.size.z));
         let second = format!("light_speed: {} m/s", short(self.light_speed()));
-        lines.said(0, &second, "Such that the observer's clock and the film go alike; without it, the real one.");
+        lines.said(
+            0,
+            &second,
+            "Such that the observer's clock and the film go alike; without it, the real one.",
+        );
         self.things(&mut lines, &extent);
         if self.lit {
             lines.key(0, "lights:", &["lights"]);
-            let sun = "- sun: { illuminance: 1000 lx, direction: -0.6 -1 -0.7, spectrum: { black_body: 5600 K } }";
+            let sun =
+                "- sun: { illuminance: 1000 lx, direction: -0.6 -1 -0.7, spectrum: { black_body: 5600 K } }";
             lines.key(2, sun, &["lights", "sun"]);
             lines.key(0, "ambient: { luminance: 60 cd/m2 }", &["ambient"]);
         }
@@ -266,7 +284,11 @@ impl Draft {
         match self.white {
             Some(white) => {
                 let line = format!("white: {} cd/m2", short(white));
-                lines.said(2, &line, "The luminance that is shown as white, measured on the model; `auto` measures the film.");
+                lines.said(
+                    2,
+                    &line,
+                    "The luminance that is shown as white, measured on the model; `auto` measures the film.",
+                );
             }
             None => lines.key(2, "white: auto", &["picture", "white"]),
         }
@@ -281,13 +303,21 @@ impl Draft {
     fn things(&self, lines: &mut Lines, extent: &str) {
         let name = &self.name;
         lines.key(0, "assets:", &["assets"]);
-        lines.said(2, &format!("{name}: {}", self.file), &format!("The model, {extent}; `terrell inspect` shows what is in it."));
+        lines.said(
+            2,
+            &format!("{name}: {}", self.file),
+            &format!("The model, {extent}; `terrell inspect` shows what is in it."),
+        );
         if self.floor.is_some() {
             lines.said(2, "floor: plane", "A shape: all of the plane y = 0.");
         }
         lines.key(0, "bodies:", &["bodies"]);
         lines.key(2, &format!("- asset: {name}"), &["bodies", "asset"]);
-        lines.said(4, "velocity: 0 0 0 c", "Its velocity in the lab; if it is to move, give `past` or `around` its name.");
+        lines.said(
+            4,
+            "velocity: 0 0 0 c",
+            "Its velocity in the lab; if it is to move, give `past` or `around` its name.",
+        );
         if let Some(material) = self.materials.first().filter(|name| !name.contains(char::is_control)) {
             let named = serde_json::Value::from(material.as_str());
             let line = format!("# materials: {{ {named}: {{ diffuse: 0.5 }} }}");

@@ -49,7 +49,8 @@ fn shown(text: &str, file: &Path, known: usize) -> [Shown; 2] {
 }
 
 fn began(model: &Path, motion: Motion) -> String {
-    starter(model, Path::new("begun.yaml"), motion).unwrap_or_else(|error| panic!("{}: {error}", model.display()))
+    starter(model, Path::new("begun.yaml"), motion)
+        .unwrap_or_else(|error| panic!("{}: {error}", model.display()))
 }
 
 #[test]
@@ -74,7 +75,8 @@ fn first_pictures_of_all_models_are_good() {
                 "{name} {motion:?}: {:.3} and {:.3} of the picture, median {median:.3}, clipped {clipped:.3}\n",
                 first.part, middle.part
             );
-            let good = first.part > 0.005 && (0.05..0.7).contains(&middle.part) && median > 0.02 && clipped < 0.05;
+            let good =
+                first.part > 0.005 && (0.05..0.7).contains(&middle.part) && median > 0.02 && clipped < 0.05;
             println!("{told}");
             wrong.extend((!good).then_some(told));
         }
@@ -82,11 +84,21 @@ fn first_pictures_of_all_models_are_good() {
     assert!(wrong.is_empty(), "{}", wrong.concat());
 }
 
-const CUBE: &[(f64, f64, f64)] = &[(0., 0., 0.), (1., 0., 0.), (1., 2., 0.), (0., 2., 0.), (0., 0., 1.), (1., 0., 1.), (1., 2., 1.), (0., 2., 1.)];
+const CUBE: &[(f64, f64, f64)] = &[
+    (0., 0., 0.),
+    (1., 0., 0.),
+    (1., 2., 0.),
+    (0., 2., 0.),
+    (0., 0., 1.),
+    (1., 0., 1.),
+    (1., 2., 1.),
+    (0., 2., 1.),
+];
 
 /// A cuboid of three metres and more, so many times as large, somewhere.
 fn cuboid(scale: f64) -> String {
-    let corner = |(x, y, z): &(f64, f64, f64)| format!("v {} {} {}\n", x * scale + 7.0 * scale, y * scale, z * scale);
+    let corner =
+        |(x, y, z): &(f64, f64, f64)| format!("v {} {} {}\n", x * scale + 7.0 * scale, y * scale, z * scale);
     let faces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
     CUBE.iter().map(corner).collect::<String>() + faces
 }

@@ -27,8 +27,7 @@ pub(super) struct NewArgs {
 
 /// Writes a manifest.
 pub(super) fn run(args: &NewArgs) -> Result<(), Error> {
-    let (motion, word) =
-        if args.flyby { (Motion::Flyby, "flyby") } else { (Motion::Turntable, "turntable") };
+    let (motion, word) = if args.flyby { (Motion::Flyby, "flyby") } else { (Motion::Turntable, "turntable") };
     let stem = args.model.file_stem().map_or_else(|| "model".into(), |stem| stem.to_string_lossy());
     let file = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}-{word}.yaml")));
     if file.exists() && !args.force {
@@ -42,5 +41,7 @@ pub(super) fn run(args: &NewArgs) -> Result<(), Error> {
     let text = starter(&args.model, &file, motion)?;
     write_whole(&file, |to| to.write_all(text.as_bytes()))?;
     let file = file.display();
-    super::print(&format!("{file} is written. terrell render {file} --exposure 48 shows its middle; terrell render {file} makes the film.\n"))
+    super::print(&format!(
+        "{file} is written. terrell render {file} --exposure 48 shows its middle; terrell render {file} makes the film.\n"
+    ))
 }

@@ -28,7 +28,8 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
         let from = shown.len() - text.len();
         let Some(value) = parsed(&Source::Argument { text: shown, from }, text, report) else { continue };
         let keys: Vec<_> = path.split('.').collect();
-        let short = |key: &&str| shorthand::KEYS.contains(key) && root.get(key).is_none() && !value.is_removal();
+        let short =
+            |key: &&str| shorthand::KEYS.contains(key) && root.get(key).is_none() && !value.is_removal();
         if keys.first().is_some_and(short) {
             shorthand::make_way(Rc::make_mut(&mut root));
         }

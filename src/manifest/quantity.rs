@@ -132,8 +132,7 @@ impl Reader<'_> {
 
     /// The numbers of a quantity in house units, and what its unit measures.
     pub(crate) fn quantity(&mut self, node: &Node, quantity: &Quantity) -> Read<(Vec<f64>, Dimension)> {
-        let text =
-            self.text(node, quantity.what, &format!("{} {}", quantity.example(), quantity.unit))?;
+        let text = self.text(node, quantity.what, &format!("{} {}", quantity.example(), quantity.unit))?;
         let written = Written::of(text);
         self.countable(node, text, &written, quantity)?;
         let unit = self.unit(node, &written, quantity)?;
@@ -214,7 +213,8 @@ impl Reader<'_> {
                 units::meant(&plain, quantity.dimensions).unwrap_or(quantity.unit),
             ),
         };
-        let hint = format!("{} (units: {all})", self.typed(&format!("{} {unit}", quantity.numbers(written, unit))));
+        let hint =
+            format!("{} (units: {all})", self.typed(&format!("{} {unit}", quantity.numbers(written, unit))));
         Err(self.fault(&node.place, what, hint))
     }
 

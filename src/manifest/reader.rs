@@ -183,13 +183,16 @@ impl Reader<'_> {
             return;
         }
         let [fault] = self.report.faults.get(known..).unwrap_or_default() else { return };
-        let Some(typed) = self.key().and_then(|key| fault.hint.strip_prefix(&format!("{key}: "))) else { return };
+        let Some(typed) = self.key().and_then(|key| fault.hint.strip_prefix(&format!("{key}: "))) else {
+            return;
+        };
         let end = [" (", ", or ", ", and ", "; "].iter().filter_map(|stop| typed.find(stop)).min();
         let typed = typed.get(..end.unwrap_or(typed.len())).unwrap_or_default().to_owned();
         let mut kept = std::mem::take(self.report);
         let light_speed = self.light_speed;
         let source = Source::file(self.folder, &typed);
-        let accepted = yaml::parse(&source, &typed, self.report).is_some_and(|node| K::read(&node, self).is_ok());
+        let accepted =
+            yaml::parse(&source, &typed, self.report).is_some_and(|node| K::read(&node, self).is_ok());
         self.light_speed = light_speed;
         if !accepted && let (Some(fault), Some(key)) = (kept.faults.get_mut(known), self.key()) {
             fault.hint = format!("{key}: {example}");

@@ -27,9 +27,8 @@ pub(crate) fn parse(source: &Source, text: &str, report: &mut Report) -> Option<
     // Offsets count from the start of the file, a byte order mark included.
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let known = report.faults.len();
-    let build = |report: &mut Report| {
-        Builder::new(source, text, bare, report).build(Parser::new_from_str(bare))
-    };
+    let build =
+        |report: &mut Report| Builder::new(source, text, bare, report).build(Parser::new_from_str(bare));
     let root = build(report)?;
     if report.faults.len() > known {
         return Some(root);

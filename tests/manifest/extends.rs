@@ -138,7 +138,7 @@ fn a_shorthand_takes_the_place_of_the_observers_way_and_the_exposures_below_it()
         ("n.yaml", "extends: m.yaml\nflyby: { past: ball, distance: 2 m }\noutput: out/n\n"),
     ]);
     let (manifest, _) = files.sound("m.yaml");
-    assert!((manifest.observer.field_of_view.to_degrees() - 40.0).abs() < 1e-12);
+    assert!((manifest.observer.field_of_view.unwrap().to_degrees() - 40.0).abs() < 1e-12);
     assert_eq!(manifest.exposures.count, 96);
     files.sound("n.yaml");
 }

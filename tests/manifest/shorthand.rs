@@ -162,7 +162,7 @@ fn shorthands_on_the_command_line_take_the_place_of_what_is_written() {
     assert!(matches!(&m.observer.worldline, Worldline::Ring(ring) if ring.radius == 2.0));
     assert!(matches!(m.observer.view, View::LookAt(LookAt::Point(DVec3::ZERO))));
     assert_eq!(m.exposures.count, 7);
-    assert!(close(m.observer.field_of_view, std::f64::consts::FRAC_PI_6));
+    assert!(close(m.observer.field_of_view.unwrap(), std::f64::consts::FRAC_PI_6));
     let m = read_with(
         "turntable: { around: 0 0 0 m, radius: 2 m }\noutput: out\n",
         &[("flyby", "{ past: 0 0 0 m, distance: 1 m, speed: 0.5 c }"), ("flyby.count", "5")],
