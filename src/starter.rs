@@ -26,7 +26,7 @@ const COUNT: u32 = 96;
 /// Pictures in a second.
 const RATE: f64 = 24.0;
 /// Half the way past, in distances.
-const REACH: f64 = 2.0;
+const REACH: f64 = 1.5;
 /// Tangents of half the angle of view, across and down: 50 degrees, 16 to 9.
 const HALF_VIEW: (f64, f64) = (0.466, 0.262);
 /// The part of the picture's width or height that the model fills at most.
@@ -175,7 +175,7 @@ fn quantile(rising: &[f64], part: f64) -> f64 {
     rising.get((rising.len() as f64 * part) as usize).copied().unwrap_or(0.0)
 }
 
-/// Whether a model stands on something of its own: flat faces low down, under much of it.
+/// Whether a model stands on something of its own: flat faces that look up low down, under much of it.
 fn has_floor(asset: &Asset, (lo, hi): (DVec3, DVec3)) -> bool {
     let size = hi - lo;
     let low = lo.y + 0.05 * size.y;
@@ -186,8 +186,8 @@ fn has_floor(asset: &Asset, (lo, hi): (DVec3, DVec3)) -> bool {
         for corners in &mesh.triangles {
             let [a, b, c] = corners.map(place);
             let across = (b - a).cross(c - a) / 2.0;
-            if a.y.max(b.y).max(c.y) <= low && across.y.abs() > 0.9 * across.length() {
-                area += across.y.abs();
+            if a.y.max(b.y).max(c.y) <= low && across.y > 0.9 * across.length() {
+                area += across.y;
             }
         }
     }

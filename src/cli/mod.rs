@@ -111,7 +111,7 @@ struct CheckArgs {
 
 #[derive(Debug, Args)]
 struct Changes {
-    /// Change a key of the manifest, as in picture.samples=16 or bodies.0.velocity="0.5 0 0 c"
+    /// Change a key of the manifest, as in picture.samples=16 or bodies.monkey.velocity="0.5 0 0 c"; film=~ takes one away, lights.+="{ .. }" adds to a list
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }

@@ -294,8 +294,8 @@ impl Kind for Bodies {
                 sound = Err(reader.fault(&materials.place, what, "material: mirror"));
             }
         }
-        let bodies = each::<Body>(items, reader);
-        reader.rest.bodies = bodies.iter().flatten().take(MOST_OF_REST).cloned().collect();
-        sound.and_then(|()| bodies.into_iter().collect())
+        let (bodies, all) = each::<Body>(items, reader);
+        reader.rest.bodies = bodies.iter().take(MOST_OF_REST).cloned().collect();
+        all.and(sound).map(|()| bodies)
     }
 }

@@ -220,9 +220,11 @@ impl Reader<'_> {
 
     /// Bare numbers.
     pub(crate) fn bare(&mut self, node: &Node, what: &str, count: usize) -> Read<Vec<f64>> {
-        let text = self.text(node, what, &example(count))?;
+        // The usual view is along z.
+        let usual = if self.key() == Some("up") { "0 1 0".to_owned() } else { example(count) };
+        let text = self.text(node, what, &usual)?;
         let written = Written::of(text);
-        let proposed = written.padded(count, example(count));
+        let proposed = written.padded(count, usual);
         self.numeric(node, text, &written, what, &proposed)?;
         let hint = self.typed(&proposed);
         if !written.rest.is_empty() {

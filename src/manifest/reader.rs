@@ -186,6 +186,9 @@ impl Reader<'_> {
         let Some(typed) = self.key().and_then(|key| fault.hint.strip_prefix(&format!("{key}: "))) else {
             return;
         };
+        if typed.contains("}, ") {
+            return; // Several keys.
+        }
         let end = [" (", ", or ", ", and ", "; "].iter().filter_map(|stop| typed.find(stop)).min();
         let typed = typed.get(..end.unwrap_or(typed.len())).unwrap_or_default().to_owned();
         let mut kept = std::mem::take(self.report);

@@ -13,8 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Values of a tree that takes much memory.
-const MANY_VALUES: usize = 20_000;
+/// Values of a text at which a second reader looks.
+const MANY_VALUES: usize = 60_000;
 /// Lists and maps within one another.
 const DEEPEST: usize = 64;
 /// Bytes of one text.
@@ -27,22 +27,18 @@ pub(crate) fn parse(source: &Source, text: &str, report: &mut Report) -> Option<
     // Offsets count from the start of the file, a byte order mark included.
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let known = report.faults.len();
-    let build =
-        |report: &mut Report| Builder::new(source, text, bare, report).build(Parser::new_from_str(bare));
-    let root = build(report)?;
-    if report.faults.len() > known {
-        return Some(root);
-    }
-    // A large tree and what the second reader keeps of it are not there at the same time.
-    let root = Some(root).filter(|root| root.values < MANY_VALUES);
-    if let Err(error) = serde_yaml::from_str::<serde::de::IgnoredAny>(bare) {
+    let root = Builder::new(source, text, bare, report).build(Parser::new_from_str(bare))?;
+    // The second reader keeps all events at once: of very many values that takes more memory than all else.
+    let second = report.faults.len() == known && root.values <= MANY_VALUES;
+    if second && let Err(error) = serde_yaml::from_str::<serde::de::IgnoredAny>(bare) {
         let at = error.location().map_or(0, |location| location.index()) + (text.len() - bare.len());
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
-        report.fault(source.place(clamp(text, at..at)), format!("this is not YAML: {what}"), "");
+        let hint = "look at the indentation, and at quotes and brackets left open";
+        report.fault(source.place(clamp(text, at..at)), format!("this is not YAML: {what}"), hint);
         return None;
     }
-    root.or_else(|| build(report))
+    Some(root)
 }
 
 /// A span within the text and on character boundaries.

@@ -228,7 +228,7 @@ fn shown_faults_are_no_more_than_can_be_read() {
 #[test]
 fn shown_faults_in_endless_lines_show_what_is_around_them() {
     let (before, after) = ("é".repeat(900), " ".repeat(5000));
-    let text = format!("observer: {{ \"{before}\": 1, up: 0 1 0, at: 3, {after}}}\noutput: out\n");
+    let text = format!("observer: {{ x: \"{before}\", up: 0 1 0, at: 3, {after}}}\noutput: out\n");
     let report = faults(&text);
     let shown = render(&report.faults, false, false);
     assert!(shown.contains("m.yaml:1:935"), "{shown}");

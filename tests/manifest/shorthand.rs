@@ -196,7 +196,7 @@ fn shorthands_that_go_nowhere_are_faults() {
     );
     assert!(
         said("turntable: { around: still, radius: 1 m, speed: 0 c }")
-            .starts_with("the observer does not come round")
+            .starts_with("the observer does not move")
     );
     assert!(
         said("turntable: { around: still, radius: 1 m, speed: 0.5 c, turns: 0 }")
