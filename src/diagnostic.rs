@@ -39,7 +39,16 @@ fn one(fault: &Fault, warning: bool, renderer: &Renderer) -> String {
     if !hint.is_empty() {
         group = group.element(Level::HELP.message(hint));
     }
-    renderer.render(&[group])
+    // Where a line is cut or an argument is shown, its place stands above it already.
+    let shown = renderer.render(&[group]);
+    shown.lines().filter(|line| bare(line).trim() != ":::").collect::<Vec<_>>().join("\n")
+}
+
+/// A line without colours.
+fn bare(line: &str) -> String {
+    let mut parts = line.split('\u{1b}');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + part.split_once('m').map_or("", |(_, after)| after))
 }
 
 /// Adds a place, with its line and a mark below what is meant.

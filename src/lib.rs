@@ -32,6 +32,7 @@ mod simd;
 pub mod solid;
 pub mod spacetime;
 pub mod spectrum;
+pub mod starter;
 pub mod stereo;
 pub mod surface;
 pub mod surroundings;

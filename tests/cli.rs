@@ -297,3 +297,43 @@ fn faults_of_flags_name_the_flags() {
         assert!(said.contains(right), "{said}");
     }
 }
+
+#[test]
+fn new_writes_a_manifest_that_is_sound_and_never_over_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("die.yaml");
+    let path = file.to_str().unwrap();
+    let new = ["new", "assets/die.glb", "--flyby", "-o", path];
+    let output = terrell(&new);
+    assert!(output.status.success(), "{}", said(&output));
+    let first = std::fs::read(&file).unwrap();
+    assert!(terrell(&["check", path]).status.success());
+    let again = terrell(&["new", "assets/die.glb", "--turntable", "-o", path]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(said(&again).contains("--force") && std::fs::read(&file).unwrap() == first);
+    assert!(terrell(&["new", "assets/die.glb", "--turntable", "-o", path, "--force"]).status.success());
+    assert!(std::fs::read_to_string(&file).unwrap().contains("\nturntable:"));
+}
+
+#[test]
+fn faults_of_a_manifest_its_models_and_its_limits_are_told_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let monkey = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/monkey.glb");
+    let write = |text: &str| {
+        let file = folder.path().join("m.yaml");
+        std::fs::write(&file, text.replace("MONKEY", monkey.to_str().unwrap())).unwrap();
+        said(&terrell(&["check", file.to_str().unwrap()]))
+    };
+    let faulty = write(
+        "assets: { a: { file: MONKEY, node: Suzane }, b: absent.glb }\nbodies: [{ asset: a }, { asset: b }, { asset: a, at: 3 }]\n\
+         observer: { up: 0 0 0 }\noutput: out\n",
+    );
+    for fault in ["a place is 3 numbers", "cannot be zero", "no node named `Suzane`", "there is no file"] {
+        assert!(faulty.contains(fault), "{fault}: {faulty}");
+    }
+    let limits = write(
+        "assets: { a: { file: MONKEY, node: Suzane } }\nbodies: [{ asset: a }]\n\
+         observer: { rocket: { acceleration: 0 0 1 c/s } }\nexposures: { at: 100 s }\noutput: out\n",
+    );
+    assert!(limits.contains("Lorentz factor is") && limits.contains("no node named"), "{limits}");
+}

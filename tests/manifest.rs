@@ -2,6 +2,7 @@
 
 mod extends;
 mod faults;
+mod hints;
 mod hostile;
 mod language;
 mod overrides;

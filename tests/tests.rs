@@ -48,6 +48,7 @@ mod solid;
 mod solids;
 mod spectral;
 mod spectrum;
+mod starter;
 mod stereo;
 mod support;
 mod surroundings;

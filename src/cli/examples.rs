@@ -8,6 +8,7 @@ Examples:
   terrell chart manifests/flyby.yaml
   terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
   terrell check manifests/flyby.yaml
+  terrell new assets/monkey.glb --flyby
   terrell inspect assets/monkey.glb";
 
 pub(super) const RENDER: &str = "\
@@ -35,6 +36,13 @@ Examples:
 pub(super) const INSPECT: &str = "\
 Examples:
   terrell inspect assets/monkey.glb";
+
+pub(super) const NEW: &str = "\
+Examples:
+  terrell new assets/monkey.glb --flyby
+  terrell new assets/dice.glb --turntable -o out/dice.yaml --force
+
+It chooses distances, speed, light and exposure so that the first picture is good, and says what each line means.";
 
 pub(super) const SCHEMA: &str = "\
 Examples:

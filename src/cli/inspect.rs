@@ -35,7 +35,7 @@ fn name(of: &str) -> &str {
 
 fn as_text(asset: &Asset) -> String {
     let mut text = format!("{}\n", asset.path.display());
-    if let Some((lo, hi)) = extent(asset) {
+    if let Some((lo, hi)) = asset.extent() {
         let size = hi - lo;
         text += &format!("size {:.3} x {:.3} x {:.3} m, ", size.x, size.y, size.z);
     }
@@ -174,14 +174,6 @@ fn glass(material: &Material) -> Vec<String> {
     words
 }
 
-fn extent(asset: &Asset) -> Option<(glam::DVec3, glam::DVec3)> {
-    let points = asset.instances.iter().flat_map(|instance| {
-        let place = instance.asset_from_mesh;
-        asset.meshes[instance.mesh].positions.iter().map(move |p| place.transform_point3(p.as_dvec3()))
-    });
-    points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-}
-
 fn as_json(asset: &Asset) -> Value {
     let nodes: Vec<Value> = asset
         .nodes
@@ -199,7 +191,7 @@ fn as_json(asset: &Asset) -> Value {
                 "tangents": !mesh.tangents.is_empty() })
         })
         .collect();
-    let size = extent(asset).map(|(lo, hi)| [lo.to_array(), hi.to_array()]);
+    let size = asset.extent().map(|(lo, hi)| [lo.to_array(), hi.to_array()]);
     json!({ "file": asset.path, "extent": size, "nodes": nodes, "meshes": meshes, "materials": materials,
         "lights": asset.lights.len(), "cameras": asset.cameras.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "animations": asset.animations.iter().map(|animation| &animation.name).collect::<Vec<_>>() })

@@ -6,6 +6,7 @@ mod check;
 mod examples;
 mod inspect;
 mod manual;
+mod new;
 mod progress;
 
 use crate::diagnostic;
@@ -16,7 +17,7 @@ use crate::render;
 use crate::scene::{Scene, compose, compose_rest};
 use crate::stereo::Layout;
 use clap::{Args, Parser, Subcommand};
-use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, RENDER, SCHEMA};
+use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, NEW, RENDER, SCHEMA};
 use std::io::{IsTerminal, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -44,6 +45,9 @@ enum Command {
     /// Show what is in a model file: nodes, materials, lights, cameras
     #[command(after_help = INSPECT)]
     Inspect(inspect::InspectArgs),
+    /// Write a manifest to begin with, for any model
+    #[command(after_help = NEW)]
+    New(new::NewArgs),
     /// Print the JSON Schema of manifests, by which editors complete keys and explain them
     #[command(after_help = SCHEMA)]
     Schema(manual::SchemaArgs),
@@ -107,7 +111,7 @@ struct CheckArgs {
 
 #[derive(Debug, Args)]
 struct Changes {
-    /// Change a key of the manifest, as in picture.samples=16 or bodies.0.velocity="0.5 0 0 c"
+    /// Change a key of the manifest, as in picture.samples=16 or bodies.monkey.velocity="0.5 0 0 c"; film=~ takes one away, lights.+="{ .. }" adds to a list
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
@@ -134,6 +138,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
         Command::Chart(args) => pool(args.threads).and_then(|pool| pool.install(|| chart::run(&args))),
         Command::Inspect(args) => inspect::run(&args),
+        Command::New(args) => new::run(&args),
         Command::Schema(args) => manual::schema(&args),
         Command::Completions(args) => manual::completions(&args),
         Command::Man(args) => manual::man(&args),

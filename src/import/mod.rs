@@ -30,7 +30,7 @@ use crate::inputs::Inputs;
 use crate::mesh::Mesh;
 pub use animation::{Animation, Channel, Interpolation, Moving, Pose, Rig};
 use files::Files;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 pub use material::{Clearcoat, Coverage, Material, MetalRough, NormalMap, Specular, Transmission, Volume};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -134,6 +134,17 @@ pub struct Asset {
     pub warnings: Vec<Fault>,
     /// The file and all others that it names.
     pub inputs: Inputs,
+}
+
+impl Asset {
+    /// The least and the greatest coordinates of all that is placed; none if nothing is.
+    pub fn extent(&self) -> Option<(DVec3, DVec3)> {
+        let points = self.instances.iter().flat_map(|instance| {
+            let place = instance.asset_from_mesh;
+            self.meshes[instance.mesh].positions.iter().map(move |p| place.transform_point3(p.as_dvec3()))
+        });
+        points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
 }
 
 /// The most faults (and warnings) that one file may report; the rest are only counted.

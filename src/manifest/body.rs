@@ -257,6 +257,9 @@ impl Kind for FileMaterials {
     }
 }
 
+/// Bodies that are looked at though others have faults.
+const MOST_OF_REST: usize = 1000;
+
 /// The bodies, whose names are known from here on.
 pub(crate) struct Bodies;
 
@@ -291,8 +294,8 @@ impl Kind for Bodies {
                 sound = Err(reader.fault(&materials.place, what, "material: mirror"));
             }
         }
-        let bodies = each::<Body>(items, reader);
-        reader.rest.bodies = bodies.iter().flatten().cloned().collect();
-        sound.and_then(|()| bodies.into_iter().collect())
+        let (bodies, all) = each::<Body>(items, reader);
+        reader.rest.bodies = bodies.iter().take(MOST_OF_REST).cloned().collect();
+        all.and(sound).map(|()| bodies)
     }
 }

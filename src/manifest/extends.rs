@@ -10,7 +10,7 @@ use super::plain::{FilePath, neighbour, tidy};
 use super::reader::{Read, Reader};
 use super::record::{Field, Kind, Record, Shape};
 use super::table::read_text;
-use super::{Manifest, yaml};
+use super::{Manifest, shorthand, yaml};
 use crate::error::{Place, Report};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -20,7 +20,7 @@ const DEEPEST: usize = 16;
 /// Manifests in all.
 const MOST_FILES: usize = 64;
 /// Lists whose items may be changed by a map of them.
-const LISTS: [&str; 2] = ["bodies", "lights"];
+pub(super) const LISTS: [&str; 2] = ["bodies", "lights"];
 
 /// The tree of a manifest with those that it extends below it; their files, in the order in which they are read, are added to
 /// `read`. None, with faults, if one of them cannot be had.
@@ -71,7 +71,10 @@ impl Bases<'_> {
         };
         let bases: Vec<_> = names.iter().filter_map(|name| self.base(name)).collect();
         let shape = super::shape();
-        let all = bases.into_iter().chain([root]).reduce(|under, over| {
+        let all = bases.into_iter().chain([root]).reduce(|mut under, over| {
+            if shorthand::KEYS.iter().any(|key| over.get(key).is_some_and(|value| !value.is_removal())) {
+                shorthand::make_way(Rc::make_mut(&mut under));
+            }
             let mut merge = Merge { report: self.report };
             merge.node("", &under, &over, Some(&shape))
         });
@@ -260,7 +263,7 @@ pub(super) fn warn_of_output(root: &Node, path: &Path, report: &mut Report) {
 }
 
 /// The keys of which one at least says who looks.
-const LOOKING: [&str; 3] = ["observer", "turntable", "flyby"];
+pub(super) const LOOKING: [&str; 3] = ["observer", "turntable", "flyby"];
 
 /// Whether there is no observer, nor a key that was meant to be one.
 pub(super) fn nobody_looks(root: &Node) -> bool {

@@ -22,20 +22,25 @@ impl<K: Kind> Kind for List<K> {
             let what = format!("`{key}` is a list; this is {}", node.describe());
             return Err(reader.fault(&node.place, what, "begin each item with `- ` on a line of its own"));
         };
-        each::<K>(items, reader).into_iter().collect()
+        let (values, sound) = each::<K>(items, reader);
+        sound.map(|()| values)
     }
 }
 
-/// All items, the faulty ones too.
-pub(crate) fn each<K: Kind>(items: &[Rc<Node>], reader: &mut Reader<'_>) -> Vec<Read<K::Value>> {
-    let mut values = Vec::with_capacity(items.len());
+/// The items without faults, and whether that is all of them.
+pub(crate) fn each<K: Kind>(items: &[Rc<Node>], reader: &mut Reader<'_>) -> (Vec<K::Value>, Read<()>) {
+    let (mut values, mut sound) = (Vec::new(), Ok(()));
     for (index, item) in items.iter().enumerate() {
-        values.push(reader.under(&index.to_string(), &item.place, |reader| {
+        let value = reader.under(&index.to_string(), &item.place, |reader| {
             reader.something(item)?;
             K::read(item, reader)
-        }));
+        });
+        match value {
+            Ok(value) => values.push(value),
+            Err(reported) => sound = Err(reported),
+        }
     }
-    values
+    (values, sound)
 }
 
 /// Where in a list the item is that a key means: by its name or that of its asset, or by its number from 0; or why there

@@ -64,7 +64,7 @@ pub use paint::Paint;
 pub use picture::{Effects, Filter, Picture, White};
 pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};
-pub use reference::reference;
+pub use reference::{meaning, reference};
 pub use schema::schema;
 pub use shorthand::{Flyby, Shorthand, Turntable};
 pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};

@@ -37,11 +37,11 @@ choice! {
     /// How fast, by one of the measures that can tell speeds near that of light apart.
     Fast, "a velocity" {
         /// The Lorentz factor γ, 1 or more.
-        gamma => Gamma(f64) = Real, "50";
+        gamma => Gamma(f64) = LorentzFactor, "50";
         /// The rapidity, artanh β.
-        rapidity => Rapidity(f64) = Real, "3";
+        rapidity => Rapidity(f64) = Rapidity, "3";
         /// The proper velocity γβ.
-        gamma_beta => Proper(DVec3) = Vector, "0.3 0 2.06";
+        gamma_beta => Proper(DVec3) = ProperVelocity, "0.3 0 2.06";
     }
 }
 
@@ -79,18 +79,17 @@ impl Kind for Motion {
         match keys.fast {
             Fast::Gamma(gamma) => {
                 let along = along(reader)?;
-                Ok(Velocity::from_gamma(lorentz_factor(node, gamma, reader)?, along))
+                Ok(Velocity::from_gamma(gamma, along))
             }
             Fast::Rapidity(rapidity) => {
                 let along = along(reader)?;
-                Ok(Velocity::from_proper(along * proper(node, libm::sinh(rapidity), reader)?))
+                Ok(Velocity::from_proper(along * libm::sinh(rapidity)))
             }
             Fast::Proper(u) => {
                 if keys.along.is_some() {
                     let hint = "`gamma_beta` has a direction already: remove `along`";
                     return Err(reader.fault(&node.place, "this velocity has two directions", hint));
                 }
-                proper(node, u.length(), reader)?;
                 Ok(Velocity::from_proper(u))
             }
         }
@@ -115,16 +114,53 @@ fn rounded(x: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn lorentz_factor(node: &Node, gamma: f64, reader: &mut Reader<'_>) -> Read<f64> {
-    if (1.0..=GREATEST_GAMMA).contains(&gamma) {
-        return Ok(gamma);
+/// A Lorentz factor.
+struct LorentzFactor;
+
+impl Kind for LorentzFactor {
+    type Value = f64;
+    fn shape() -> Shape {
+        Real::shape()
     }
-    let place = node.get("gamma").map_or(&node.place, |gamma| &gamma.place);
-    if gamma < 1.0 {
-        let what = format!("a Lorentz factor is 1 or more; here is {gamma}");
-        return Err(reader.fault(place, what, "gamma: 2 (1 is rest, 2 is 0.866 c)"));
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let gamma = Real::read(node, reader)?;
+        if (1.0..=GREATEST_GAMMA).contains(&gamma) {
+            return Ok(gamma);
+        }
+        if gamma < 1.0 {
+            let what = format!("a Lorentz factor is 1 or more; here is {gamma}");
+            return Err(reader.fault(&node.place, what, "gamma: 2 (1 is rest, 2 is 0.866 c)"));
+        }
+        Err(reader.fault(&node.place, TOO_NEAR, "gamma: 1e8 (at most)"))
     }
-    Err(reader.fault(place, TOO_NEAR, "gamma: 1e8 (at most)"))
+}
+
+/// Declares kinds that are too near the speed of light beyond some γβ.
+macro_rules! proper {
+    ($( $(#[doc = $doc:literal])* $name:ident: $kind:ty, $of:expr; )*) => {$(
+        $(#[doc = $doc])*
+        struct $name;
+        impl Kind for $name {
+            type Value = <$kind as Kind>::Value;
+            fn shape() -> Shape {
+                <$kind>::shape()
+            }
+            fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Self::Value> {
+                let value = <$kind>::read(node, reader)?;
+                proper(node, ($of)(value), reader)?;
+                Ok(value)
+            }
+        }
+    )*};
+}
+
+proper! {
+    /// artanh β.
+    Rapidity: Real, libm::sinh;
+    /// γβ.
+    ProperVelocity: Vector, DVec3::length;
+    /// γβ along a path.
+    ProperSpeed: Real, |u: f64| u;
 }
 
 fn proper(node: &Node, u: f64, reader: &mut Reader<'_>) -> Read<f64> {
@@ -150,12 +186,9 @@ impl Kind for Speed {
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
         if matches!(node.content, Content::Map(_)) {
             return match FastAlong::read(node, reader)? {
-                FastAlong::Gamma(gamma) => {
-                    let gamma = lorentz_factor(node, gamma, reader)?;
-                    Ok(((gamma - 1.0) * (gamma + 1.0)).sqrt())
-                }
-                FastAlong::Rapidity(rapidity) => proper(node, libm::sinh(rapidity), reader),
-                FastAlong::Proper(u) => proper(node, u, reader),
+                FastAlong::Gamma(gamma) => Ok(((gamma - 1.0) * (gamma + 1.0)).sqrt()),
+                FastAlong::Rapidity(rapidity) => Ok(libm::sinh(rapidity)),
+                FastAlong::Proper(u) => Ok(u),
             };
         }
         let (numbers, _) = reader.quantity(node, &Self::QUANTITY)?;
@@ -177,11 +210,11 @@ choice! {
     /// How fast along a known path.
     FastAlong, "a speed" {
         /// The Lorentz factor γ, 1 or more.
-        gamma => Gamma(f64) = Real, "50";
+        gamma => Gamma(f64) = LorentzFactor, "50";
         /// The rapidity, artanh β.
-        rapidity => Rapidity(f64) = Real, "3";
+        rapidity => Rapidity(f64) = Rapidity, "3";
         /// The proper speed γβ.
-        gamma_beta => Proper(f64) = Real, "2.06";
+        gamma_beta => Proper(f64) = ProperSpeed, "2.06";
     }
 }
 

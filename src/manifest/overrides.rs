@@ -4,7 +4,7 @@ use super::extends::{inside, item_shape};
 use super::list::item;
 use super::node::{Content, Entry, Node, Source};
 use super::record::Shape;
-use super::yaml;
+use super::{shorthand, yaml};
 use crate::error::{Place, Report};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -28,6 +28,11 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
         let from = shown.len() - text.len();
         let Some(value) = parsed(&Source::Argument { text: shown, from }, text, report) else { continue };
         let keys: Vec<_> = path.split('.').collect();
+        let short =
+            |key: &&str| shorthand::KEYS.contains(key) && root.get(key).is_none() && !value.is_removal();
+        if keys.first().is_some_and(short) {
+            shorthand::make_way(Rc::make_mut(&mut root));
+        }
         if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value) {
             report.fault(argument.place(), what, hint);
         }

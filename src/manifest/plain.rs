@@ -105,7 +105,7 @@ impl Kind for Direction {
             let scaled = along / largest;
             return Ok(scaled / scaled.length());
         }
-        let hint = reader.typed("0 0 1");
+        let hint = reader.typed(if reader.key() == Some("up") { "0 1 0" } else { "0 0 1" });
         Err(reader.fault(&node.place, "a direction cannot be zero", hint))
     }
 }

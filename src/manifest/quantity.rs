@@ -50,9 +50,9 @@ impl<'t> Written<'t> {
     }
 
     /// The numbers as written, cut or filled up with zeros to `count`; an example if there are none.
-    fn padded(&self, count: usize) -> String {
+    fn padded(&self, count: usize, example: String) -> String {
         if self.numbers.is_empty() || !self.numbers.iter().all(|x| x.is_finite()) {
-            return example(count);
+            return example;
         }
         let words = self.words.iter().copied().chain(std::iter::repeat("0"));
         words.take(count).collect::<Vec<_>>().join(" ")
@@ -90,6 +90,19 @@ fn counted(count: usize) -> String {
     if count == 1 { "one number".to_owned() } else { format!("{count} numbers") }
 }
 
+impl Quantity {
+    /// Numbers that are never wrong: half the speed of light, or one of anything else.
+    fn example(&self) -> String {
+        if self.unit == "c" { "0 ".repeat(self.count - 1) + "0.5" } else { example(self.count) }
+    }
+
+    /// The numbers that were written, as so many; an example if they are none, or at the speed of light and above.
+    fn numbers(&self, written: &Written<'_>, unit: &str) -> String {
+        let square: f64 = written.numbers.iter().map(|x| x * x).sum();
+        if unit == "c" && square >= 1.0 { self.example() } else { written.padded(self.count, self.example()) }
+    }
+}
+
 impl Reader<'_> {
     /// The text of a value that is written as text.
     pub(crate) fn text<'n>(&mut self, node: &'n Node, what: &str, example: &str) -> Read<&'n str> {
@@ -119,8 +132,7 @@ impl Reader<'_> {
 
     /// The numbers of a quantity in house units, and what its unit measures.
     pub(crate) fn quantity(&mut self, node: &Node, quantity: &Quantity) -> Read<(Vec<f64>, Dimension)> {
-        let text =
-            self.text(node, quantity.what, &format!("{} {}", example(quantity.count), quantity.unit))?;
+        let text = self.text(node, quantity.what, &format!("{} {}", quantity.example(), quantity.unit))?;
         let written = Written::of(text);
         self.countable(node, text, &written, quantity)?;
         let unit = self.unit(node, &written, quantity)?;
@@ -135,7 +147,8 @@ impl Reader<'_> {
     /// Faults too few or too many numbers.
     fn countable(&mut self, node: &Node, text: &str, written: &Written<'_>, quantity: &Quantity) -> Read<()> {
         let (found, count) = (written.numbers.len(), quantity.count);
-        let proposed = format!("{} {}", written.padded(count), unit_or(written, quantity));
+        let unit = unit_or(written, quantity);
+        let proposed = format!("{} {unit}", quantity.numbers(written, unit));
         self.numeric(node, text, written, quantity.what, &proposed)?;
         if found == count {
             return Ok(());
@@ -181,13 +194,13 @@ impl Reader<'_> {
         if let Some(unit) = units::find(&plain, quantity.dimensions) {
             return Ok(unit);
         }
-        let numbers = written.padded(quantity.count);
         let all: Vec<_> = quantity.dimensions.iter().map(|dimension| dimension.units()).collect();
         let all = all.join(", ");
         if plain.is_empty() {
             // Nobody writes 3e8 and means c.
             let fast = quantity.unit == "c" && written.numbers.iter().any(|x| x.abs() >= 1.0);
-            let hint = self.typed(&format!("{numbers} {}", if fast { "m/s" } else { quantity.unit }));
+            let unit = if fast { "m/s" } else { quantity.unit };
+            let hint = self.typed(&format!("{} {unit}", quantity.numbers(written, unit)));
             return Err(self.fault(&node.place, format!("{} needs a unit", quantity.what), hint));
         }
         let (what, unit) = match units::dimension_of(&plain) {
@@ -200,15 +213,18 @@ impl Reader<'_> {
                 units::meant(&plain, quantity.dimensions).unwrap_or(quantity.unit),
             ),
         };
-        let hint = format!("{} (units: {all})", self.typed(&format!("{numbers} {unit}")));
+        let hint =
+            format!("{} (units: {all})", self.typed(&format!("{} {unit}", quantity.numbers(written, unit))));
         Err(self.fault(&node.place, what, hint))
     }
 
     /// Bare numbers.
     pub(crate) fn bare(&mut self, node: &Node, what: &str, count: usize) -> Read<Vec<f64>> {
-        let text = self.text(node, what, &example(count))?;
+        // The usual view is along z.
+        let usual = if self.key() == Some("up") { "0 1 0".to_owned() } else { example(count) };
+        let text = self.text(node, what, &usual)?;
         let written = Written::of(text);
-        let proposed = written.padded(count);
+        let proposed = written.padded(count, usual);
         self.numeric(node, text, &written, what, &proposed)?;
         let hint = self.typed(&proposed);
         if !written.rest.is_empty() {

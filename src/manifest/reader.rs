@@ -4,9 +4,11 @@ use super::body::{AssetRef, Body};
 use super::lens::Lens;
 use super::material::Material;
 use super::names::Names;
-use super::node::Node;
+use super::node::{Node, Source};
+use super::record::Kind;
 use super::spectrum::Spectrum;
 use super::surroundings::Surroundings;
+use super::yaml;
 use crate::error::{Place, Report, nearest_name};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -170,6 +172,35 @@ impl<'a> Reader<'a> {
             "write a value, or leave the key out".to_owned()
         };
         Err(self.fault(&node.place, format!("`{key}` has no value"), hint))
+    }
+}
+
+impl Reader<'_> {
+    /// Sees to it that what a hint of the value of a key says to type is no fault itself; else it is the example of the key.
+    /// `known`: how many faults there were before.
+    pub(crate) fn better_hint<K: Kind>(&mut self, known: usize, example: &str) {
+        if !self.suggests() {
+            return;
+        }
+        let [fault] = self.report.faults.get(known..).unwrap_or_default() else { return };
+        let Some(typed) = self.key().and_then(|key| fault.hint.strip_prefix(&format!("{key}: "))) else {
+            return;
+        };
+        if typed.contains("}, ") {
+            return; // Several keys.
+        }
+        let end = [" (", ", or ", ", and ", "; "].iter().filter_map(|stop| typed.find(stop)).min();
+        let typed = typed.get(..end.unwrap_or(typed.len())).unwrap_or_default().to_owned();
+        let mut kept = std::mem::take(self.report);
+        let light_speed = self.light_speed;
+        let source = Source::file(self.folder, &typed);
+        let accepted =
+            yaml::parse(&source, &typed, self.report).is_some_and(|node| K::read(&node, self).is_ok());
+        self.light_speed = light_speed;
+        if !accepted && let (Some(fault), Some(key)) = (kept.faults.get_mut(known), self.key()) {
+            fault.hint = format!("{key}: {example}");
+        }
+        *self.report = kept;
     }
 }
 

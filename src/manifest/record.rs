@@ -162,20 +162,29 @@ impl<'n> Entries<'n> {
     }
 
     /// The value of a key that may be left out.
-    pub(crate) fn optional<K: Kind>(&self, key: &str, reader: &mut Reader<'_>) -> Read<Option<K::Value>> {
+    pub(crate) fn optional<K: Kind>(
+        &self,
+        (key, example): (&str, &str),
+        reader: &mut Reader<'_>,
+    ) -> Read<Option<K::Value>> {
         let Some(entry) = self.get(key) else { return Ok(None) };
+        let known = reader.report.faults.len();
         reader
             .under(&entry.key, &entry.value.place, |reader| {
                 if !K::MAY_BE_EMPTY {
                     reader.something(&entry.value)?;
                 }
-                K::read(&entry.value, reader)
+                let value = K::read(&entry.value, reader);
+                if value.is_err() {
+                    reader.better_hint::<K>(known, example);
+                }
+                value
             })
             .map(Some)
     }
 
     /// The value of a key; if it is left out, what an empty map would have been read as.
-    pub(crate) fn or_empty<K: Kind>(&self, key: &str, reader: &mut Reader<'_>) -> Read<K::Value> {
+    pub(crate) fn or_empty<K: Kind>(&self, key: (&str, &str), reader: &mut Reader<'_>) -> Read<K::Value> {
         match self.optional::<K>(key, reader)? {
             Some(value) => Ok(value),
             None => K::read(&Node::new(Place::Command, Content::Map(Vec::new())), reader),
@@ -189,7 +198,7 @@ impl<'n> Entries<'n> {
         (key, example): (&str, &str),
         reader: &mut Reader<'_>,
     ) -> Read<K::Value> {
-        match self.optional::<K>(key, reader)? {
+        match self.optional::<K>((key, example), reader)? {
             Some(value) => Ok(value),
             None if self.is_meant(key) => Err(Reported),
             None => {
@@ -300,13 +309,13 @@ macro_rules! record {
         $entries.required::<$kind>($title, ($key, $example), $reader)
     };
     (@read optional $kind:ty, $title:literal, $entries:ident, $reader:ident, $key:expr, $example:literal) => {
-        $entries.optional::<$kind>($key, $reader)
+        $entries.optional::<$kind>(($key, $example), $reader)
     };
     (@read empty $kind:ty, $title:literal, $entries:ident, $reader:ident, $key:expr, $example:literal) => {
-        $entries.or_empty::<$kind>($key, $reader)
+        $entries.or_empty::<$kind>(($key, $example), $reader)
     };
     (@read default $kind:ty, $title:literal, $entries:ident, $reader:ident, $key:expr, $example:literal, $default:expr) => {
-        $entries.optional::<$kind>($key, $reader).map(|value| value.unwrap_or_else(|| $default))
+        $entries.optional::<$kind>(($key, $example), $reader).map(|value| value.unwrap_or_else(|| $default))
     };
 }
 
@@ -347,7 +356,7 @@ macro_rules! choice {
                 let mut otherwise: Option<fn() -> Self> = None;
                 $( otherwise = Some(|| $default); )?
                 let given = entries.one_of($title, &Self::fields(), otherwise.is_some(), reader);
-                $( let $key = entries.optional::<$kind>($crate::manifest::record::plain_key(stringify!($key)), reader); )*
+                $( let $key = entries.optional::<$kind>(($crate::manifest::record::plain_key(stringify!($key)), $example), reader); )*
                 let given = given?;
                 if let (None, Some(otherwise)) = (given, otherwise) {
                     return Ok(otherwise());

@@ -1,6 +1,6 @@
 //! The reference of the manifest, written from the same lists that read it.
 
-use super::record::{Presence, RecordShape, Shape};
+use super::record::{Field, Presence, RecordShape, Shape};
 use super::shape;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -19,6 +19,29 @@ pub fn reference() -> String {
         }
     }
     text
+}
+
+/// What a key means, in one sentence; its path from the outermost, without the places of lists.
+pub fn meaning(path: &[&str]) -> String {
+    let mut shape = shape();
+    let mut doc = "";
+    for key in path {
+        let Some(field) = field(&shape, key) else { return String::new() };
+        doc = field.doc;
+        shape = (field.shape)();
+    }
+    let text = doc.split_whitespace().collect::<Vec<_>>().join(" ");
+    let end = text.find(". ").map_or(text.len(), |end| end + 1);
+    text.get(..end).unwrap_or_default().to_owned()
+}
+
+fn field(shape: &Shape, key: &str) -> Option<Field> {
+    match shape {
+        Shape::Record(record) => (record.fields)().into_iter().find(|field| field.key == key),
+        Shape::List(of) | Shape::Map(of) => field(&of(), key),
+        Shape::Either(shapes) => shapes.iter().find_map(|shape| field(shape, key)),
+        Shape::Text(_) | Shape::Number(_) | Shape::Words(_) => None,
+    }
 }
 
 const PREFACE: &str = "\

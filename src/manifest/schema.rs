@@ -3,6 +3,7 @@
 //!
 //! It knows keys, words, lists and where numbers stand. What is in a text (units, names) the program itself says.
 
+use super::extends::{LISTS, LOOKING};
 use super::record::{Presence, RecordShape, Shape};
 use super::shape;
 use serde_json::{Map, Value, json};
@@ -10,16 +11,26 @@ use serde_json::{Map, Value, json};
 /// The schema, as text.
 pub fn schema() -> String {
     let mut definitions = Definitions::default();
-    let Value::Object(mut root) = definitions.of(&shape()) else { return String::new() };
+    let whole = definitions.of(&shape(), Said::Whole);
+    let changes = definitions.of(&shape(), Said::Changes);
     definitions.write_waiting();
-    let about = json!({
+    let root = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "a manifest of terrell",
+        "if": { "type": "object", "required": ["extends"] },
+        "then": changes,
+        "else": { "allOf": [whole, { "anyOf": LOOKING.map(|key| json!({ "required": [key] })) }] },
         "$defs": definitions.written,
     });
-    root.extend(about.as_object().cloned().unwrap_or_default());
     // Objects of texts and numbers alone.
     serde_json::to_string_pretty(&root).unwrap_or_default() + "\n"
+}
+
+/// What is said of a thing: all of it, or what is to be changed of another manifest's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Said {
+    Whole,
+    Changes,
 }
 
 /// Records by their names.
@@ -27,40 +38,45 @@ pub fn schema() -> String {
 struct Definitions {
     written: Map<String, Value>,
     // Records that have been named, with their names; the first so many are written.
-    named: Vec<(RecordShape, String)>,
+    named: Vec<(RecordShape, Said, String)>,
     done: usize,
 }
 
 impl Definitions {
     /// The name of a record: its title, and a number where another has the same.
-    fn name(&mut self, record: RecordShape) -> String {
-        let same = |(other, _): &&(RecordShape, String)| {
-            other.title == record.title && std::ptr::fn_addr_eq(other.fields, record.fields)
+    fn name(&mut self, record: RecordShape, said: Said) -> String {
+        let alike = |other: &RecordShape, also: Said| other.title == record.title && also == said;
+        let same = |(other, also, _): &&(RecordShape, Said, String)| {
+            alike(other, *also) && std::ptr::fn_addr_eq(other.fields, record.fields)
         };
-        if let Some((_, name)) = self.named.iter().find(same) {
+        if let Some((_, _, name)) = self.named.iter().find(same) {
             return name.clone();
         }
-        let title = record.title.replace(' ', "-");
-        let before = self.named.iter().filter(|(other, _)| other.title == record.title).count();
+        let title = record.title.replace(' ', "-") + if said == Said::Changes { "-changed" } else { "" };
+        let before = self.named.iter().filter(|(other, also, _)| alike(other, *also)).count();
         let name = if before > 0 { format!("{title}-{}", before + 1) } else { title };
-        self.named.push((record, name.clone()));
+        self.named.push((record, said, name.clone()));
         name
     }
 
     fn write_waiting(&mut self) {
-        while let Some((record, name)) = self.named.get(self.done).cloned() {
-            let written = self.record(&record);
+        while let Some((record, said, name)) = self.named.get(self.done).cloned() {
+            let written = self.record(&record, said);
             self.written.insert(name, written);
             self.done += 1;
         }
     }
 
-    fn record(&mut self, record: &RecordShape) -> Value {
+    fn record(&mut self, record: &RecordShape, said: Said) -> Value {
         let fields = (record.fields)();
         let properties: Map<String, Value> = fields
             .iter()
             .map(|field| {
-                let mut value = self.of(&(field.shape)());
+                let shape = (field.shape)();
+                let mut value = self.of(&shape, said);
+                if said == Said::Changes {
+                    value = json!({ "anyOf": self.changes(field.key, &shape, value) });
+                }
                 if let Value::Object(value) = &mut value {
                     value.insert("description".into(), words(field.doc).into());
                     let example = serde_yaml::from_str::<Value>(field.example);
@@ -71,7 +87,7 @@ impl Definitions {
             .collect();
         let required: Vec<&str> = fields
             .iter()
-            .filter(|field| field.presence == Presence::Required)
+            .filter(|field| field.presence == Presence::Required && said == Said::Whole)
             .map(|field| field.key)
             .collect();
         json!({
@@ -84,7 +100,19 @@ impl Definitions {
         })
     }
 
-    fn of(&mut self, shape: &Shape) -> Value {
+    /// A value, what takes it away, and, of some lists, a map of their items by name or number.
+    fn changes(&mut self, key: &str, shape: &Shape, value: Value) -> Vec<Value> {
+        let mut any = vec![value, json!({ "type": "null" })];
+        if let (true, Shape::List(of)) = (LISTS.contains(&key), shape) {
+            let more = self.of(&of(), Said::Whole);
+            let item = json!({ "anyOf": [self.of(&of(), Said::Changes), { "type": "null" }] });
+            let add = json!({ "anyOf": [{ "type": "array", "items": more }, more] });
+            any.push(json!({ "type": "object", "properties": { "+": add }, "additionalProperties": item }));
+        }
+        any
+    }
+
+    fn of(&mut self, shape: &Shape, said: Said) -> Value {
         match shape {
             Shape::Text("nothing, or {}") => json!({ "type": ["null", "object"], "maxProperties": 0 }),
             // A single number without a unit is a number to an editor.
@@ -93,11 +121,16 @@ impl Definitions {
             Shape::Words(words) => {
                 json!({ "enum": words.iter().flat_map(|word| meant(word)).collect::<Vec<_>>() })
             }
-            Shape::List(of) => json!({ "type": "array", "items": self.of(&of()) }),
-            Shape::Map(of) => json!({ "type": "object", "additionalProperties": self.of(&of()) }),
-            Shape::Record(record) => json!({ "$ref": format!("#/$defs/{}", self.name(*record)) }),
+            // Lists are not merged.
+            Shape::List(of) => json!({ "type": "array", "items": self.of(&of(), Said::Whole) }),
+            Shape::Map(of) if said == Said::Changes => {
+                let item = json!({ "anyOf": [self.of(&of(), said), { "type": "null" }] });
+                json!({ "type": "object", "additionalProperties": item })
+            }
+            Shape::Map(of) => json!({ "type": "object", "additionalProperties": self.of(&of(), said) }),
+            Shape::Record(record) => json!({ "$ref": format!("#/$defs/{}", self.name(*record, said)) }),
             Shape::Either(shapes) => {
-                json!({ "anyOf": shapes.iter().map(|shape| self.of(shape)).collect::<Vec<_>>() })
+                json!({ "anyOf": shapes.iter().map(|shape| self.of(shape, said)).collect::<Vec<_>>() })
             }
         }
     }

@@ -7,10 +7,11 @@ use super::observer::{LookAt, Observer, Orbit, Ring, View, Worldline};
 use super::plain::{Count, Direction, Real};
 use super::quantity::{Angle, Instant, Length, Offset};
 use super::reader::{Read, Reader, Reported};
-use super::record::{Record, choice, record};
+use super::record::{Kind, Record, Shape, choice, record};
 use super::{Exposures, Manifest};
 use crate::spacetime::Velocity;
 use glam::DVec3;
+use std::rc::Rc;
 
 choice! {
     /// Observer and exposures in short.
@@ -42,7 +43,7 @@ record! {
         /// How often it goes round, below zero for the other way round: 1 unless said.
         turns: f64 = Real, default(1.0), "1";
         /// How fast an observer goes round; none unless said, but a ring of observers at rest.
-        speed: Option<f64> = Speed, optional, "0.5 c";
+        speed: Option<f64> = Going, optional, "0.5 c";
         /// The lab time of the first picture (of a ring, of all): 0 s unless said.
         at: f64 = Instant, default(0.0), "4 s";
         /// How many pictures: 96 unless said.
@@ -60,13 +61,13 @@ record! {
         /// How far from it the observer is where it is nearest.
         distance: f64 = Length, required, "5 m";
         /// How fast the observer goes past; none unless said, but the body moves and the observer stands.
-        speed: Option<f64> = Speed, optional, "0.9 c";
+        speed: Option<f64> = Going, optional, "0.9 c";
         /// Which way the observer goes: 1 0 0 unless said.
         along: Option<DVec3> = Direction, optional, "1 0 0";
         /// On which side of the way it is, seen from the middle: 0 0 1 unless said.
         side: Option<DVec3> = Direction, optional, "0 0.2 1";
         /// How far the way goes to either side of the middle, in distances: 4 unless said.
-        reach: f64 = Real, default(4.0), "4";
+        reach: f64 = Reach, default(4.0), "4";
         /// The lab time at which the middle is passed: 0 s unless said.
         at: f64 = Instant, default(0.0), "4 s";
         /// How many pictures: 96 unless said.
@@ -74,8 +75,61 @@ record! {
     }
 }
 
+/// A speed that is not zero.
+struct Going;
+
+impl Kind for Going {
+    type Value = f64;
+    fn shape() -> Shape {
+        Speed::shape()
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let speed = Speed::read(node, reader)?;
+        if speed.abs() > 1e-30 {
+            return Ok(speed);
+        }
+        let hint = reader.typed("0.5 c, or leave it out");
+        Err(reader.fault(&node.place, "the observer does not move", hint))
+    }
+}
+
+/// How far a way goes to either side.
+struct Reach;
+
+impl Kind for Reach {
+    type Value = f64;
+    fn shape() -> Shape {
+        Shape::Number("a bare number above zero")
+    }
+    fn read(node: &Node, reader: &mut Reader<'_>) -> Read<f64> {
+        let reach = Real::read(node, reader)?;
+        if (1e-12..=1e12).contains(&reach) {
+            return Ok(reach);
+        }
+        let hint = reader.typed("4");
+        Err(reader.fault(&node.place, "the way past goes nowhere", hint))
+    }
+}
+
 /// The keys of a shorthand that is written.
-const KEYS: [&str; 2] = ["turntable", "flyby"];
+pub(super) const KEYS: [&str; 2] = ["turntable", "flyby"];
+
+/// The keys of an observer that a shorthand says.
+fn taken() -> Vec<&'static str> {
+    Placement::fields().into_iter().chain(Worldline::fields()).map(|field| field.key).collect()
+}
+
+/// Takes away what a shorthand says, where one is put on top of another manifest.
+pub(super) fn make_way(root: &mut Node) {
+    let Content::Map(entries) = &mut root.content else { return };
+    entries.retain(|entry| entry.key != "exposures");
+    let Some(observer) = entries.iter_mut().find(|entry| entry.key == "observer") else { return };
+    let views = View::fields().into_iter().map(|field| field.key);
+    let said: Vec<_> = taken().into_iter().chain(views).collect();
+    if let Content::Map(entries) = &mut Rc::make_mut(&mut observer.value).content {
+        entries.retain(|entry| !said.contains(&entry.key.as_str()));
+    }
+}
 
 /// Faults what a shorthand says already.
 pub(super) fn check(root: &Node, reader: &mut Reader<'_>) -> Read<()> {
@@ -90,8 +144,7 @@ pub(super) fn check(root: &Node, reader: &mut Reader<'_>) -> Read<()> {
         sound = Err(reader.fault_and(&exposures.place, says, what, hint));
     }
     let Some(Content::Map(entries)) = root.get("observer").map(|node| &node.content) else { return sound };
-    let taken: Vec<_> =
-        Placement::fields().into_iter().chain(Worldline::fields()).map(|field| field.key).collect();
+    let taken = taken();
     for entry in entries.iter().filter(|entry| taken.contains(&entry.key.as_str())) {
         let what = format!("`{key}` says already where the observer is and how it moves");
         let hint = format!("remove `{}` here, or write all out in place of `{key}`", entry.key);

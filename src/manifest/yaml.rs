@@ -13,6 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
+/// Values of a text at which a second reader looks.
+const MANY_VALUES: usize = 60_000;
 /// Lists and maps within one another.
 const DEEPEST: usize = 64;
 /// Bytes of one text.
@@ -24,16 +26,16 @@ pub(super) const MOST_VALUES: usize = 250_000;
 pub(crate) fn parse(source: &Source, text: &str, report: &mut Report) -> Option<Rc<Node>> {
     // Offsets count from the start of the file, a byte order mark included.
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut builder = Builder::new(source, text, bare, report);
-    let known = builder.report.faults.len();
-    let root = builder.build(Parser::new_from_str(bare));
-    let clean = builder.report.faults.len() == known;
-    let root = root?;
-    if clean && let Err(error) = serde_yaml::from_str::<serde_yaml::Value>(bare) {
+    let known = report.faults.len();
+    let root = Builder::new(source, text, bare, report).build(Parser::new_from_str(bare))?;
+    // The second reader keeps all events at once: of very many values that takes more memory than all else.
+    let second = report.faults.len() == known && root.values <= MANY_VALUES;
+    if second && let Err(error) = serde_yaml::from_str::<serde::de::IgnoredAny>(bare) {
         let at = error.location().map_or(0, |location| location.index()) + (text.len() - bare.len());
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
-        report.fault(source.place(clamp(text, at..at)), format!("this is not YAML: {what}"), "");
+        let hint = "look at the indentation, and at quotes and brackets left open";
+        report.fault(source.place(clamp(text, at..at)), format!("this is not YAML: {what}"), hint);
         return None;
     }
     Some(root)
@@ -154,10 +156,12 @@ impl<'a> Builder<'a> {
                 )
             }
             Event::SequenceEnd | Event::MappingEnd => match self.open.pop() {
-                Some(Open::List { start, anchor, items }) => {
+                Some(Open::List { start, anchor, mut items }) => {
+                    items.shrink_to_fit();
                     self.value(Content::List(items), start..span.end, anchor)
                 }
-                Some(Open::Map { start, anchor, entries, .. }) => {
+                Some(Open::Map { start, anchor, mut entries, .. }) => {
+                    entries.shrink_to_fit();
                     self.value(Content::Map(entries), start..span.end, anchor)
                 }
                 None => Ok(()),
@@ -176,8 +180,8 @@ impl<'a> Builder<'a> {
 
     fn begin(&mut self, open: Open, span: Range<usize>) -> Result<(), Stopped> {
         if self.open.len() >= DEEPEST {
-            let what = format!("lists and maps within one another more than {DEEPEST} deep");
-            return Err(self.stop(span, &what, "a manifest needs no more than ten"));
+            self.too_deep(span);
+            return Err(Stopped);
         }
         self.open.push(open);
         Ok(())
@@ -205,8 +209,8 @@ impl<'a> Builder<'a> {
             return Err(self.stop(span, &what, "long tables belong in a CSV file"));
         }
         if node.depth + self.open.len() > DEEPEST + 1 {
-            let what = format!("lists and maps within one another more than {DEEPEST} deep");
-            return Err(self.stop(span, &what, "a manifest needs no more than ten"));
+            self.too_deep(span);
+            return Err(Stopped);
         }
         match self.open.last_mut() {
             None => self.root = Some(node),
@@ -277,6 +281,9 @@ impl<'a> Builder<'a> {
 
     fn not_yaml(&mut self, info: &str, index: usize) {
         let at = self.byte(index);
+        if info.contains("recursion limit") {
+            return self.too_deep(at..at);
+        }
         let line = self.text[..at].rsplit('\n').next().unwrap_or_default().len();
         let line = self.text[at - line..].lines().next().unwrap_or_default();
         let hint = if line.starts_with(|c: char| c.is_whitespace())
@@ -293,6 +300,11 @@ impl<'a> Builder<'a> {
             "look at the indentation, and at quotes and brackets left open"
         };
         self.fault(at..at, &format!("this is not YAML: {info}"), hint);
+    }
+
+    fn too_deep(&mut self, span: Range<usize>) {
+        let what = format!("lists and maps within one another more than {DEEPEST} deep");
+        self.fault(span, &what, "a manifest needs no more than ten");
     }
 
     fn stop(&mut self, span: Range<usize>, what: &str, hint: &str) -> Stopped {

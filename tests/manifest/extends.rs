@@ -131,6 +131,19 @@ output: out/other
 }
 
 #[test]
+fn a_shorthand_takes_the_place_of_the_observers_way_and_the_exposures_below_it() {
+    let files = Files::of(&[
+        ("base.yaml", BASE),
+        ("m.yaml", "extends: base.yaml\nturntable: { around: ball, radius: 4 m }\noutput: out/m\n"),
+        ("n.yaml", "extends: m.yaml\nflyby: { past: ball, distance: 2 m }\noutput: out/n\n"),
+    ]);
+    let (manifest, _) = files.sound("m.yaml");
+    assert!((manifest.observer.field_of_view.unwrap().to_degrees() - 40.0).abs() < 1e-12);
+    assert_eq!(manifest.exposures.count, 96);
+    files.sound("n.yaml");
+}
+
+#[test]
 fn later_manifests_of_a_list_stand_above_earlier_ones() {
     let files = Files::of(&[
         ("a.yaml", "light_speed: 1 m/s\npicture: { samples: 1, depth: 2 }\n"),

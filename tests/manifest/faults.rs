@@ -138,8 +138,8 @@ fn faults_on_the_command_line_name_the_path_of_keys() {
     assert_eq!(said("observer.at", ""), "--set [observer.at] `observer.at` has no value");
     assert_eq!(
         said("observer", "{ up: 0 1, view: x }"),
-        "--set observer={ up: [0 1] a direction is 3 numbers; here are 2; --set observer={ up: 0 1, [view] `view` is not a key \
-         of the observer"
+        "--set observer={ up: 0 1, [view] `view` is not a key of the observer; --set observer={ up: [0 1] a direction is 3 \
+         numbers; here are 2"
     );
 }
 
@@ -227,12 +227,11 @@ fn shown_faults_are_no_more_than_can_be_read() {
 
 #[test]
 fn shown_faults_in_endless_lines_show_what_is_around_them() {
-    let text =
-        format!("observer: {{ {}up: 0 1 0, at: 3, {}}}\noutput: out\n", "é".repeat(5000), " ".repeat(5000));
-    let text = text.replace(&"é".repeat(5000), &format!("\"{}\": 1, ", "é".repeat(4000)));
+    let (before, after) = ("é".repeat(900), " ".repeat(5000));
+    let text = format!("observer: {{ x: \"{before}\", up: 0 1 0, at: 3, {after}}}\noutput: out\n");
     let report = faults(&text);
     let shown = render(&report.faults, false, false);
-    assert!(shown.contains("m.yaml:1:4035"), "{shown}");
+    assert!(shown.contains("m.yaml:1:935"), "{shown}");
     let (line, marks) = {
         let at = shown.lines().position(|line| line.contains("at: 3")).unwrap();
         (shown.lines().nth(at).unwrap(), shown.lines().nth(at + 1).unwrap())
@@ -259,11 +258,11 @@ fn shown_faults_on_the_command_line_have_their_argument_and_a_mark() {
     let expected = "\
 error: a place needs a unit
 --> the command line
-  |
-  | --set observer.at=0 1 5
-  |                   ^^^^^
-  |
-  = help: at: 0 1 5 m
+ |
+ | --set observer.at=0 1 5
+ |                   ^^^^^
+ |
+ = help: at: 0 1 5 m
 
 ";
     assert_eq!(render(&report.faults, false, false), expected);

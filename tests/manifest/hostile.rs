@@ -155,7 +155,7 @@ const KEYS: &[&str] = &[
     "light_speed: @\noutput: @\nfilm: @\nassets: @\neffects: @\nambient: @\nsurroundings: @",
 ];
 
-const VALUES: &[&str] = &[
+pub(super) const VALUES: &[&str] = &[
     "x",
     "~",
     "''",
@@ -202,7 +202,7 @@ fn soon(text: &str) -> usize {
     report.faults.len()
 }
 
-const REST: &str = "observer: {}\noutput: out\n";
+pub(super) const REST: &str = "observer: {}\noutput: out\n";
 
 #[test]
 fn aliases_of_aliases_are_refused_before_they_are_written_out() {
@@ -290,4 +290,38 @@ fn depth_by_way_of_aliases_is_depth() {
     let mut text = "a0: &a0 [x]\n".to_owned();
     (1..100).for_each(|i| text.push_str(&format!("a{i}: &a{i} [*a{}]\n", i - 1)));
     assert_eq!(soon(&format!("{text}{REST}")), 1);
+}
+
+/// Texts of legal size that ask for as much as they can.
+fn greedy() -> Vec<String> {
+    let lots = |item: &str, count: usize| vec![item; count].join(", ");
+    vec![
+        format!("bodies: [{}]\n{REST}", lots("{}", 240_000)),
+        format!("bodies: [{}]\n{REST}", lots("{a: [b]}", 62_000)),
+        format!("bodies: [{}]\n{REST}", lots("{ asset: a }", 80_000)),
+        format!("spectra: {{ a: [{}] }}\n{REST}", lots("é", 249_000)),
+        format!("{}{REST}", (0..120_000).map(|i| format!("k{i}: {i}\n")).collect::<String>()),
+        format!("a: &a [{}]\nb: [{}]\n{REST}", lots("x", 400), lots("*a", 600)),
+        format!("a: [{}]\n{REST}", lots("[[[[x]]]]", 49_000)),
+        format!("a: [{}]\n{REST}", lots("\"x\"", 249_000)),
+        format!("# {}\n{REST}", "é".repeat(2_000_000)),
+        format!("bodies: [{}]\n{REST}", lots("1", 2_000_000)),
+    ]
+}
+
+/// The system counts what a process may write to; more than 100 MB are refused to it, and it ends by a signal.
+#[cfg(target_os = "linux")]
+#[test]
+fn greedy_texts_are_read_or_refused_within_100_megabytes() {
+    let folder = tempfile::tempdir().unwrap();
+    for (number, text) in greedy().iter().enumerate() {
+        let file = folder.path().join(format!("{number}.yaml"));
+        std::fs::write(&file, text).unwrap();
+        let begun = Instant::now();
+        let mut shell = std::process::Command::new("sh");
+        let limited = r#"ulimit -d 100000 && exec "$0" check "$1""#;
+        let output = shell.args(["-c", limited, env!("CARGO_BIN_EXE_terrell")]).arg(&file).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{number}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(begun.elapsed() < Duration::from_secs(5), "{number}: {:?}", begun.elapsed());
+    }
 }

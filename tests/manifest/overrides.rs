@@ -9,7 +9,7 @@ use terrell::manifest::{self, SolidForm, Worldline};
 const TEXT: &str = "\
 assets: { ball: { sphere: { radius: 1 m } }, cube: { box: { size: 1 m } } }
 bodies: [{ asset: ball }, { asset: cube, name: left }, { asset: cube, name: right }]
-observer: { orbit: { radius: 4 m, speed: 0.5 c }, up: 0 0 1 }
+observer: { orbit: { radius: 4 m, speed: 0.5 c }, up: 1 0 0 }
 film: { rate: 12 }
 output: out
 ";

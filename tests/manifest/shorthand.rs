@@ -1,6 +1,6 @@
 //! `turntable` and `flyby`: what they stand for.
 
-use super::{close, faults, read};
+use super::{close, faults, read, read_with};
 use glam::DVec3;
 use std::path::Path;
 use terrell::error::Report;
@@ -155,6 +155,22 @@ fn what_the_observer_says_of_the_picture_stays() {
 }
 
 #[test]
+fn shorthands_on_the_command_line_take_the_place_of_what_is_written() {
+    let text = "observer: { orbit: { radius: 1 m, speed: 0.1 c }, direction: 1 0 0, field_of_view: 30 deg }\n\
+                exposures: { at: 3 s }\noutput: out\n";
+    let m = read_with(text, &[("turntable", "{ around: 0 0 0 m, radius: 2 m, count: 7 }")]);
+    assert!(matches!(&m.observer.worldline, Worldline::Ring(ring) if ring.radius == 2.0));
+    assert!(matches!(m.observer.view, View::LookAt(LookAt::Point(DVec3::ZERO))));
+    assert_eq!(m.exposures.count, 7);
+    assert!(close(m.observer.field_of_view.unwrap(), std::f64::consts::FRAC_PI_6));
+    let m = read_with(
+        "turntable: { around: 0 0 0 m, radius: 2 m }\noutput: out\n",
+        &[("flyby", "{ past: 0 0 0 m, distance: 1 m, speed: 0.5 c }"), ("flyby.count", "5")],
+    );
+    assert!(matches!(m.observer.worldline, Worldline::Rest) && m.exposures.count == 5);
+}
+
+#[test]
 fn shorthands_that_go_nowhere_are_faults() {
     let said = |text: &str| {
         let bodies = "assets: { a: plane }\nbodies: [{ asset: a, name: still }, { asset: a, name: fast, velocity: 0 0 0.5 c }]";
@@ -180,7 +196,7 @@ fn shorthands_that_go_nowhere_are_faults() {
     );
     assert!(
         said("turntable: { around: still, radius: 1 m, speed: 0 c }")
-            .starts_with("the observer does not come round")
+            .starts_with("the observer does not move")
     );
     assert!(
         said("turntable: { around: still, radius: 1 m, speed: 0.5 c, turns: 0 }")
