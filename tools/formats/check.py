@@ -148,7 +148,7 @@ def by_blender(path, bpy):
     apart = np.abs(values - other).max() / np.abs(other).max()
     if apart > 1e-3:
         raise ValueError(f"{apart:.1e} from what ffmpeg reads")
-    return f"{SIZE[0]} x {SIZE[1]}, R G B within {apart:.0e} of what ffmpeg reads"
+    return f"{SIZE[0]} x {SIZE[1]}, R G B " + ("as ffmpeg reads them" if apart == 0 else f"within {apart:.0e} of what ffmpeg reads")
 
 
 PAGE = """<body><script>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kills terrell at random moments, again and again, and sees whether its films come out the same: kill.py [--kills 300] [--terrell PROGRAM] [--seed 1]
+"""Kills terrell at random moments, again and again, and sees whether its films come out the same: kill.py [--kills 300] [--terrell PROGRAM] [--seed 1] [--manifest MANIFEST]
 
 Each film is rendered by the same command until it ends by itself; by one process at a time, and then by two or three at once. Each process gets SIGKILL, SIGINT or
 SIGTERM, or is left alone. After each round every file under a final name must have the bytes that an uninterrupted film has, and in the end nothing else may be there.
@@ -23,9 +23,9 @@ def start(program, folder):
     return subprocess.Popen([program, "render", "film.yaml"], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
-def place():
+def place(manifest):
     folder = tempfile.TemporaryDirectory()
-    shutil.copy(MANIFEST, folder.name)
+    shutil.copy(manifest, os.path.join(folder.name, "film.yaml"))
     return folder
 
 
@@ -44,17 +44,18 @@ def main():
     parser.add_argument("--kills", type=int, default=300)
     parser.add_argument("--terrell", default=os.path.join(HERE, "..", "..", "target", "release", "terrell"))
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--manifest", default=MANIFEST)
     a = parser.parse_args()
     random.seed(a.seed)
     program = os.path.abspath(a.terrell)
-    with place() as folder:
+    with place(a.manifest) as folder:
         began = time.monotonic()
         start(program, folder).communicate()
         takes, whole = time.monotonic() - began, contents(folder)
     kills, films, wrong = 0, 0, []
     while kills < a.kills:
         at_once = films % 2  # One at a time, then several.
-        with place() as folder:
+        with place(a.manifest) as folder:
             ended = False
             while not ended:
                 processes = [start(program, folder) for _ in range(random.choice((2, 3)) if at_once else 1)]
