@@ -268,10 +268,12 @@ pub(super) const LOOKING: [&str; 3] = ["observer", "turntable", "flyby"];
 /// Whether there is no observer, nor a key that was meant to be one.
 pub(super) fn nobody_looks(root: &Node) -> bool {
     let Content::Map(entries) = &root.content else { return false };
+    if entries.iter().any(|entry| LOOKING.contains(&entry.key.as_str())) {
+        return false;
+    }
     let fields = Manifest::fields();
     let keys = || fields.iter().map(|field| field.key);
-    let meant = |entry: &Entry| {
-        keys().find(|key| *key == entry.key).or_else(|| crate::error::nearest_name(&entry.key, keys()))
-    };
-    !entries.iter().any(|entry| meant(entry).is_some_and(|key| LOOKING.contains(&key)))
+    let unknown = entries.iter().filter(|entry| keys().all(|key| key != entry.key)).take(100);
+    let mut meant = unknown.filter_map(|entry| crate::error::nearest_name(&entry.key, keys()));
+    !meant.any(|key| LOOKING.contains(&key))
 }

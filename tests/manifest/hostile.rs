@@ -295,12 +295,14 @@ fn depth_by_way_of_aliases_is_depth() {
 /// Texts of legal size that ask for as much as they can.
 fn greedy() -> Vec<String> {
     let lots = |item: &str, count: usize| vec![item; count].join(", ");
+    let mut keys = String::new();
+    (0..120_000).for_each(|i| keys.push_str(&format!("k{i}: {i}\n")));
     vec![
         format!("bodies: [{}]\n{REST}", lots("{}", 240_000)),
         format!("bodies: [{}]\n{REST}", lots("{a: [b]}", 62_000)),
         format!("bodies: [{}]\n{REST}", lots("{ asset: a }", 80_000)),
         format!("spectra: {{ a: [{}] }}\n{REST}", lots("é", 249_000)),
-        format!("{}{REST}", (0..120_000).map(|i| format!("k{i}: {i}\n")).collect::<String>()),
+        keys + REST,
         format!("a: &a [{}]\nb: [{}]\n{REST}", lots("x", 400), lots("*a", 600)),
         format!("a: [{}]\n{REST}", lots("[[[[x]]]]", 49_000)),
         format!("a: [{}]\n{REST}", lots("\"x\"", 249_000)),

@@ -1,10 +1,9 @@
 //! Values of the command line.
-#![expect(clippy::float_cmp, reason = "what is written exactly is kept exactly")]
 
 use super::read_with;
 use std::path::Path;
 use terrell::error::Report;
-use terrell::manifest::{self, SolidForm, Worldline};
+use terrell::manifest::{self, Body, SolidForm, Worldline};
 
 const TEXT: &str = "\
 assets: { ball: { sphere: { radius: 1 m } }, cube: { box: { size: 1 m } } }
@@ -41,7 +40,7 @@ fn bodies_are_changed_by_name() {
 fn keys_and_items_are_taken_away() {
     let m = read_with(TEXT, &[("observer.orbit", "~"), ("bodies.left", "~"), ("film", "null")]);
     assert!(matches!(m.observer.worldline, Worldline::Rest) && m.film.is_none());
-    assert_eq!(m.bodies.iter().map(|body| body.known_as()).collect::<Vec<_>>(), ["ball", "right"]);
+    assert_eq!(m.bodies.iter().map(Body::known_as).collect::<Vec<_>>(), ["ball", "right"]);
     assert_eq!(refused("observer.obit", "~"), "there is no `obit` to be taken away; did you mean `orbit`?");
     assert_eq!(refused("output", "~"), "a manifest needs `output`; output: ../out/flyby");
     assert!(
