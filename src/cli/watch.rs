@@ -102,13 +102,16 @@ fn read(manifest: &Path, report: &Report, failed: bool) -> BTreeSet<PathBuf> {
     files().cloned().chain(folders.map(Path::to_owned)).chain([manifest.to_owned()]).collect()
 }
 
+/// Is told what has been read, and whether there were faults.
+pub(super) type FilesRead<'f> = dyn FnMut(&Report, bool) + 'f;
+
 /// Does a round of work whenever something is saved, until it is stopped; a round that is under way then is stopped, too. The work
 /// tells what it has read, and whether it failed for that.
 pub(super) fn rounds(
     manifest: &Path,
     stop: &Stop,
     say: &dyn Fn(&str),
-    mut work: impl FnMut(&Stop, &mut dyn FnMut(&Report, bool)) -> Result<(), Error>,
+    mut work: impl FnMut(&Stop, &mut FilesRead<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let files = Files::default();
     files.look_at([manifest.to_owned()].into(), SystemTime::now());

@@ -75,7 +75,6 @@ pub fn expose_coarse_to_fine(
     let all = pixels(lit, view, sampling);
     let xyz = by_pixel_until((sampling.width, sampling.height), stop, all, take)?;
     let picture = Negative { width: sampling.width, height: sampling.height, xyz };
-    drop(looker);
     show(&picture, Grain::Done);
     Some(picture)
 }

@@ -1,6 +1,7 @@
 //! The work of a preview: a manifest read, and one exposure of it from coarse to fine.
 
 use super::{News, Picture};
+use crate::cli::watch::FilesRead;
 use crate::cli::{RenderArgs, chosen, prepared, warnings};
 use crate::error::{Error, Report};
 use crate::exposure::{Grain, Sampling, expose_coarse_to_fine, expose_settled_until};
@@ -21,7 +22,7 @@ pub(super) fn once(
     path: &Path,
     changes: &[(String, String)],
     args: &RenderArgs,
-    (news, stop, files): (&Sender<News>, &Stop, &mut dyn FnMut(&Report, bool)),
+    (news, stop, files): (&Sender<News>, &Stop, &mut FilesRead<'_>),
 ) -> Result<(), Error> {
     let mut report = Report::default();
     let ready = prepared(path, changes, args, &mut report);
@@ -82,7 +83,7 @@ impl Preview<'_> {
         let look = |negative: &Negative, grain: Grain| {
             let own = || render::developed(plan, Brightness::of(negative.xyz.iter().copied()));
             if grain == Grain::Squares(METERED_AT) && film.is_none() {
-                self.show(negative, &own(), self.said(grain));
+                self.show(negative, &own(), &self.said(grain));
                 film = render::development_until(scene, plan, self.stop);
             }
             let said = if plan.tolerance.is_some() && grain == Grain::Done {
@@ -90,14 +91,14 @@ impl Preview<'_> {
             } else {
                 self.said(grain)
             };
-            self.show(negative, &film.unwrap_or_else(own), said);
+            self.show(negative, &film.unwrap_or_else(own), &said);
         };
         expose_coarse_to_fine(&lit, &view, &passes, self.stop, look)?;
         let Some(tolerance) = plan.tolerance else { return Some(()) };
         let development = film?;
         let settled =
             expose_settled_until(&lit, &view, &self.sampling, &development, (tolerance, self.stop))?;
-        self.show(&settled.negative, &development, self.said(Grain::Done));
+        self.show(&settled.negative, &development, &self.said(Grain::Done));
         Some(())
     }
 
@@ -110,7 +111,7 @@ impl Preview<'_> {
         }
     }
 
-    fn show(&self, negative: &Negative, development: &Development, said: String) {
+    fn show(&self, negative: &Negative, development: &Development, said: &str) {
         let picture =
             Picture { width: negative.width, height: negative.height, rgb: development.develop(negative) };
         let seconds = self.started.elapsed().as_secs_f64();
