@@ -166,6 +166,11 @@ pub enum Error {
         /// What the machine said.
         source: std::io::Error,
     },
+    /// The user stopped it (exit code 130, as shells have it for Ctrl-C).
+    Stopped {
+        /// What is there, and how to go on.
+        there: String,
+    },
 }
 
 impl Error {
@@ -184,6 +189,7 @@ impl Error {
         match self {
             Self::Input(_) => 2,
             Self::Machine { .. } => 1,
+            Self::Stopped { .. } => 130,
         }
     }
 }
@@ -207,6 +213,7 @@ impl fmt::Display for Error {
                 Ok(())
             }
             Self::Machine { path, doing, source } => write!(f, "{}: {doing}: {source}", path.display()),
+            Self::Stopped { there } => write!(f, "stopped: {there}"),
         }
     }
 }
@@ -215,7 +222,7 @@ impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Machine { source, .. } => Some(source),
-            Self::Input(_) => None,
+            Self::Input(_) | Self::Stopped { .. } => None,
         }
     }
 }

@@ -85,7 +85,7 @@ impl Reconstruction {
 }
 
 /// An exposed picture before anything is done to it: XYZ in cd/m², row by row from the top.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Negative {
     /// Columns.
     pub width: u32,

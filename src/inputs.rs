@@ -21,6 +21,8 @@ pub struct Inputs {
     pub bases: BTreeSet<PathBuf>,
     /// The contents of all other files.
     pub files: BTreeMap<PathBuf, Digest>,
+    /// Files on which it depends otherwise: bases of the manifest, and what could not be read.
+    pub others: BTreeSet<PathBuf>,
 }
 
 impl Inputs {
@@ -29,11 +31,17 @@ impl Inputs {
         self.files.insert(path.to_owned(), digest(bytes));
     }
 
+    /// Takes note of a file whose contents are known otherwise, or not at all.
+    pub fn depend(&mut self, path: &Path) {
+        self.others.insert(path.to_owned());
+    }
+
     /// Takes over what was read elsewhere.
     pub fn extend(&mut self, other: Self) {
         self.manifest = self.manifest.or(other.manifest);
         self.bases.extend(other.bases);
         self.files.extend(other.files);
+        self.others.extend(other.others);
     }
 
     /// The digest of all files with their names, whatever folders they are in.

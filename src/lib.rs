@@ -34,6 +34,7 @@ pub mod spacetime;
 pub mod spectrum;
 pub mod starter;
 pub mod stereo;
+pub mod stop;
 pub mod surface;
 pub mod surroundings;
 pub mod texture;

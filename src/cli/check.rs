@@ -5,18 +5,26 @@ use crate::error::Error;
 use crate::exposure::{Sampling, expose};
 use crate::film::Negative;
 use crate::manifest::Manifest;
+use crate::plan::cost::{self, Cost};
 use crate::plan::{Plan, needs};
 use crate::render;
 use crate::scene::Scene;
 use crate::surface::{Scatter, Surface, fade};
 use crate::world::{Form, Placed};
 use std::path::Path;
+use std::time::Instant;
 
 /// Checks a manifest and prints what it needs.
 pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error> {
+    let began = Instant::now();
     let (manifest, scene, plan) = super::prepare(path, changes, true)?;
+    let prepared = began.elapsed().as_secs_f64();
+    let cost = cost::estimate(&scene, &plan);
     let mut text = format!("{}: no faults\n", path.display());
     for (what, how_much) in needs(&manifest, &scene, &plan) {
+        text += &format!("  {what:<14} {how_much}\n");
+    }
+    for (what, how_much) in costs(&cost, prepared, plan.exposures.len()) {
         text += &format!("  {what:<14} {how_much}\n");
     }
     text += "how it is rendered, and why\n";
@@ -27,6 +35,45 @@ pub(super) fn run(path: &Path, changes: &[(String, String)]) -> Result<(), Error
         }
     }
     super::print(&text)
+}
+
+/// What rendering will cost; `prepared`: the seconds that it takes to read the manifest and its files.
+fn costs(cost: &Cost, prepared: f64, pictures: usize) -> [(&'static str, String); 2] {
+    let mut parts = vec![format!("{} to read", span(prepared))];
+    if cost.metering > 0.0 {
+        parts.push(format!("{} to find the brightness", span(cost.metering)));
+    }
+    if pictures > 1 {
+        parts.push(format!("{} each picture", span(cost.picture)));
+    }
+    let threads = if cost.threads == 1 { "thread" } else { "threads" };
+    let all = span(prepared + cost.all);
+    let memory = cost.memory.map_or("not known on this system".to_owned(), |bytes| match bytes {
+        bytes if bytes < 1e10 => format!("{:.0} MB", bytes / 1e6),
+        bytes => format!("{:.0} GB", bytes / 1e9),
+    });
+    [
+        (
+            "time",
+            format!(
+                "about {all} on {} {threads} that have nothing else to do: {}",
+                cost.threads,
+                parts.join(", ")
+            ),
+        ),
+        ("memory", format!("about {memory}")),
+    ]
+}
+
+/// Seconds in words.
+fn span(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 1.0 => format!("{seconds:.2} s"),
+        seconds if seconds < 10.0 => format!("{seconds:.1} s"),
+        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 7200.0 => format!("{:.0} min", seconds / 60.0),
+        seconds => format!("{:.1} h", seconds / 3600.0),
+    }
 }
 
 /// Columns of the small pictures that are tried, and how many of them.

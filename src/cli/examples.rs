@@ -19,6 +19,8 @@ Examples:
   terrell render manifests/flyby.yaml --exposure 40 --tolerance 1 --out out/settled
   terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
   terrell render manifests/prism.yaml manifests/tumbler.yaml
+  terrell render manifests/flyby.yaml --preview
+  terrell render manifests/flyby.yaml --exposure 40 --preview=terminal --watch
 
 A film that was stopped is continued by the same command. If the manifest, a file that it reads or the program has
 changed since, nothing is rendered: --restart renders all anew, --out FOLDER leaves what is there as it is.";

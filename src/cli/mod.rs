@@ -7,15 +7,19 @@ mod examples;
 mod inspect;
 mod manual;
 mod new;
+mod preview;
 mod progress;
+mod signals;
+mod watch;
 
 use crate::diagnostic;
 use crate::error::{Error, Fault, Place, Report};
 use crate::manifest::{self, Manifest};
-use crate::plan::Plan;
+use crate::plan::{Plan, meaning};
 use crate::render;
 use crate::scene::{Scene, compose, compose_rest};
 use crate::stereo::Layout;
+use crate::stop::Stop;
 use clap::{Args, Parser, Subcommand};
 use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, NEW, RENDER, SCHEMA};
 use std::io::{IsTerminal, Write};
@@ -98,7 +102,20 @@ struct RenderArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     #[command(flatten)]
+    seeing: Seeing,
+    #[command(flatten)]
     changes: Changes,
+}
+
+#[derive(Debug, Args)]
+struct Seeing {
+    /// Write nothing, and show one exposure from coarse to fine, in a window or else in the terminal: the middle one, or --exposure
+    #[arg(long, value_name = "WHERE", num_args = 0..=1, require_equals = true, default_missing_value = "anywhere",
+        conflicts_with_all = ["out", "restart", "no_video"])]
+    preview: Option<preview::Where>,
+    /// Again whenever the manifest, or a file that it reads, is saved
+    #[arg(long)]
+    watch: bool,
 }
 
 #[derive(Debug, Args)]
@@ -133,6 +150,7 @@ impl Changes {
 /// Runs the program.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
+    signals::take();
     let done = match cli.command {
         Command::Render(args) => render_all(&args),
         Command::Check(args) => args.changes.pairs().and_then(|pairs| check::run(&args.manifest, &pairs)),
@@ -146,16 +164,17 @@ pub fn run() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&error);
+            eprint!("{}", complaint(&error));
             ExitCode::from(error.exit_code())
         }
     }
 }
 
-fn complain(error: &Error) {
+fn complaint(error: &Error) -> String {
     match error {
-        Error::Input(faults) => eprint!("{}", diagnostic::render(faults, false, colored())),
-        error @ Error::Machine { .. } => eprintln!("error: {error}"),
+        Error::Input(faults) => diagnostic::render(faults, false, colored()),
+        error @ Error::Machine { .. } => format!("error: {error}\n"),
+        error @ Error::Stopped { .. } => format!("{error}\n"),
     }
 }
 
@@ -170,7 +189,7 @@ fn print(text: &str) -> Result<(), Error> {
 }
 
 /// Warnings, each thing said once with the number of further places.
-fn warn(warnings: &[Fault]) {
+fn warnings(warnings: &[Fault]) -> String {
     let mut said: Vec<(Fault, usize)> = Vec::new();
     for warning in warnings {
         match said.iter_mut().find(|(first, _)| first.what == warning.what && first.hint == warning.hint) {
@@ -184,7 +203,7 @@ fn warn(warnings: &[Fault]) {
         }
     }
     let said: Vec<Fault> = said.into_iter().map(|(warning, _)| warning).collect();
-    eprint!("{}", diagnostic::render(&said, true, colored()));
+    diagnostic::render(&said, true, colored())
 }
 
 fn colored() -> bool {
@@ -194,23 +213,34 @@ fn colored() -> bool {
 /// What a manifest asks for and means, with warnings printed; or all faults. `film`: whether its film may be wanted.
 fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
-    let Some(draft) = manifest::load_draft(path, changes, &mut report) else {
-        warn(&report.warnings);
-        return report.finish(None);
-    };
+    let all = prepare_into(path, changes, film, &mut report);
+    eprint!("{}", warnings(&report.warnings));
+    report.finish(all)
+}
+
+/// The same, with faults and warnings reported.
+fn prepare_into(
+    path: &Path,
+    changes: &[(String, String)],
+    film: bool,
+    report: &mut Report,
+) -> Option<(Manifest, Scene, Plan)> {
+    let draft = manifest::load_draft(path, changes, report)?;
     if !draft.sound {
-        warn(&report.warnings);
         // What else is wrong, in the files of what could be read.
         let mut beside = Report::default();
         compose(&draft.manifest, path, &mut beside);
         report.faults.append(&mut beside.faults);
-        return report.finish(None);
+        report.inputs.extend(beside.inputs);
+        return None;
     }
     let manifest = Manifest { film: draft.manifest.film.filter(|_| film), ..draft.manifest };
-    let scene = compose_rest(&manifest, path, &mut report);
-    let plan = Plan::of(&manifest, &scene, path, &mut report);
-    warn(&report.warnings);
-    report.finish(Some((manifest, scene, plan)))
+    let scene = compose_rest(&manifest, path, report);
+    let plan = Plan::of(&manifest, &scene, path, report);
+    if report.faults.is_empty() {
+        meaning::check(&manifest, &scene, &plan, report);
+    }
+    Some((manifest, scene, plan)).filter(|_| report.faults.is_empty())
 }
 
 /// The change that `--size` asks for.
@@ -252,13 +282,36 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
         let hint = "render them one by one, or leave --out away: each has an output of its own";
         return Err(Error::fault(Place::Command, "several manifests cannot go to one folder", hint));
     }
+    if args.seeing.watch && args.manifests.len() > 1 {
+        let hint = "one command for each, each in a terminal of its own";
+        return Err(Error::fault(Place::Command, "several manifests cannot be watched", hint));
+    }
+    if args.seeing.preview.is_some() {
+        return args.manifests.iter().try_for_each(|path| preview::run(path, &changes, args));
+    }
     let pool = pool(args.threads)?;
-    args.manifests.iter().try_for_each(|path| pool.install(|| render_one(path, &changes, args)))
+    let render = if args.seeing.watch { watch::run } else { render_one };
+    args.manifests.iter().try_for_each(|path| pool.install(|| render(path, &changes, args)))
 }
 
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
-    let (_, scene, mut plan) =
-        prepare(path, changes, args.exposure.is_none()).map_err(|error| named_as_flags(error, args))?;
+    let mut report = Report::default();
+    let ready = prepared(path, changes, args, &mut report);
+    eprint!("{}", warnings(&report.warnings));
+    let (scene, plan) = report.finish(ready)?;
+    signals::gently(|stop| render_ready(&scene, &plan, args, stop))
+}
+
+/// What is to be rendered, as the manifest and the flags have it.
+fn prepared(
+    path: &Path,
+    changes: &[(String, String)],
+    args: &RenderArgs,
+    report: &mut Report,
+) -> Option<(Scene, Plan)> {
+    let ready = prepare_into(path, changes, args.exposure.is_none(), report);
+    name_as_flags(&mut report.faults, args);
+    let (_, scene, mut plan) = ready?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
     }
@@ -266,32 +319,33 @@ fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> R
     if args.samples.is_some() {
         plan.tolerance = None; // Asked for by hand, whatever the manifest has.
     }
+    Some((scene, plan))
+}
+
+fn render_ready(scene: &Scene, plan: &Plan, args: &RenderArgs, stop: &Stop) -> Result<(), Error> {
     let chosen = chosen(args, plan.exposures.len())?;
     let films =
         if scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) { 2 } else { 1 };
-    let mut progress = progress::Progress::start(&plan, films * chosen.len());
-    render::render(&scene, &plan, chosen, |step| progress.show(&step))
+    let mut progress = progress::Progress::start(plan, films * chosen.len());
+    render::render_until(scene, plan, chosen, stop, |step| progress.show(&step))
 }
 
 /// Faults of what flags say, as faults of the flags and not of the keys that they stand for.
-fn named_as_flags(mut error: Error, args: &RenderArgs) -> Error {
+fn name_as_flags(faults: &mut [Fault], args: &RenderArgs) {
     let flags = [
         ("size", args.size.is_some()),
         ("samples", args.samples.is_some()),
         ("tolerance", args.tolerance.is_some()),
     ];
-    if let Error::Input(faults) = &mut error {
-        for (flag, _) in flags.into_iter().filter(|(_, given)| *given) {
-            let change = format!("--set picture.{flag}=");
-            let of_flag = |fault: &&mut Fault| matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change));
-            for fault in faults.iter_mut().filter(of_flag) {
-                fault.place = Place::Command;
-                fault.what = format!("--{flag}: {}", fault.what);
-                fault.hint = fault.hint.replacen(&format!("{flag}: "), &format!("--{flag} "), 1);
-            }
+    for (flag, _) in flags.into_iter().filter(|(_, given)| *given) {
+        let change = format!("--set picture.{flag}=");
+        let of_flag = |fault: &&mut Fault| matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change));
+        for fault in faults.iter_mut().filter(of_flag) {
+            fault.place = Place::Command;
+            fault.what = format!("--{flag}: {}", fault.what);
+            fault.hint = fault.hint.replacen(&format!("{flag}: "), &format!("--{flag} "), 1);
         }
     }
-    error
 }
 
 /// The exposures that are asked for, of `count`.

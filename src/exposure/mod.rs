@@ -1,9 +1,11 @@
 //! One picture: from sight rays to a negative.
 
+mod progressive;
 mod settle;
 mod spectral;
 
-pub use settle::{Settled, Uncertainty, expose_settled};
+pub use progressive::{Grain, expose_coarse_to_fine};
+pub use settle::{Settled, Uncertainty, expose_settled, expose_settled_until};
 pub use spectral::{Bands, expose_spectral, middles};
 
 use crate::film::{Negative, Reconstruction};
@@ -11,6 +13,7 @@ use crate::observer::View;
 use crate::scene::Scene;
 use crate::spacetime::SightRay;
 use crate::spectrum::Wavelengths;
+use crate::stop::Stop;
 use crate::surface::{Look, Surface};
 use crate::trace::{Cone, First, Light, Lit};
 use glam::{DVec2, DVec3};
@@ -46,7 +49,7 @@ impl Sampling {
 const BRIGHTEST: f64 = 1e37;
 
 /// Columns and rows of a tile; a row of tiles is a task of the pool.
-const TILE: usize = 8;
+pub(crate) const TILE: usize = 8;
 
 /// Exposes a picture. The same bytes on any number of threads.
 pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
@@ -55,22 +58,35 @@ pub fn expose(scene: &Scene, view: &View, sampling: &Sampling) -> Negative {
 
 /// The same with the methods of the light loop chosen by hand.
 pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
+    expose_until(lit, view, sampling, &Stop::never()).unwrap_or_default()
+}
+
+/// The same; none if it was stopped.
+pub fn expose_until(lit: &Lit<'_>, view: &View, sampling: &Sampling, stop: &Stop) -> Option<Negative> {
     let lit = &lit.seen_from(view.tetrad.event);
+    let size = (sampling.width, sampling.height);
+    let xyz = by_pixel_until(size, stop, pixels(lit, view, sampling), |_, _| {})?;
+    Some(Negative { width: sampling.width, height: sampling.height, xyz })
+}
+
+/// What says the XYZ of a pixel, by its column and row.
+type Pixels<'a> = Box<dyn Fn(usize, usize) -> [f32; 3] + Sync + 'a>;
+
+fn pixels<'a>(lit: &'a Lit<'a>, view: &'a View, sampling: &Sampling) -> Pixels<'a> {
     match sampling.wavelengths {
-        0..=3 => expose_with::<3>(lit, view, sampling),
-        4..=8 => expose_with::<8>(lit, view, sampling),
-        9..=16 => expose_with::<16>(lit, view, sampling),
-        17..=32 => expose_with::<32>(lit, view, sampling),
-        _ => expose_with::<64>(lit, view, sampling),
+        0..=3 => pixels_with::<3>(lit, view, sampling),
+        4..=8 => pixels_with::<8>(lit, view, sampling),
+        9..=16 => pixels_with::<16>(lit, view, sampling),
+        17..=32 => pixels_with::<32>(lit, view, sampling),
+        _ => pixels_with::<64>(lit, view, sampling),
     }
 }
 
-fn expose_with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
+fn pixels_with<'a, const N: usize>(lit: &'a Lit<'a>, view: &'a View, sampling: &Sampling) -> Pixels<'a> {
     let exposing = Exposing::<N>::new(view, sampling);
-    let xyz = by_pixel(sampling.width, sampling.height, |column, row| {
+    Box::new(move |column, row| {
         exposing.pixel(column, row, |ray, cone| lit.seen_within(ray, cone, &exposing.wavelengths)).0
-    });
-    Negative { width: sampling.width, height: sampling.height, xyz }
+    })
 }
 
 /// What is the same for all pixels of a picture.
@@ -121,6 +137,28 @@ impl<'a, const N: usize> Exposing<'a, N> {
     }
 }
 
+/// Exposes some tiles of a picture, by their columns and rows, as [`expose_until`] would, and keeps nothing of them: how many pixels
+/// they have. `lit` is ready for the view.
+pub(crate) fn expose_tiles(
+    lit: &Lit<'_>,
+    view: &View,
+    sampling: &Sampling,
+    tiles: &[(usize, usize)],
+) -> usize {
+    let pixel = pixels(lit, view, sampling);
+    let within = |tile: usize, end: u32| tile * TILE..((tile + 1) * TILE).min(end as usize);
+    let exposed = |(column, row): &(usize, usize)| {
+        let rows = within(*row, sampling.height);
+        let places = rows.flat_map(|row| within(*column, sampling.width).map(move |column| (column, row)));
+        let count = |sum, (column, row)| {
+            std::hint::black_box(pixel(column, row));
+            sum + 1
+        };
+        places.fold(0, count)
+    };
+    tiles.par_iter().with_max_len(1).map(exposed).sum()
+}
+
 /// The phase of a pixel's sample: where colours are parted each takes other wavelengths. Sobol's third dimension, as places in the
 /// pixel are the first two.
 fn phase(number: u32) -> f64 {
@@ -159,29 +197,50 @@ fn first_and<'s, T: Send + Clone>(
     by_pixel(width, height, first)
 }
 
-/// Something of each pixel, row by row. (Found tile by tile, since rays that are near one another meet the same things.)
+/// Something of each pixel, row by row.
 fn by_pixel<T: Send + Clone>(width: u32, height: u32, of: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
+    by_pixel_until((width, height), &Stop::never(), of, |_, _| {}).unwrap_or_default()
+}
+
+/// The same, with what is known at once of some rows given to `band`; none if it was stopped. (Found tile by tile, since rays that
+/// are near one another meet the same things.)
+fn by_pixel_until<T: Send + Clone>(
+    (width, height): (u32, u32),
+    stop: &Stop,
+    of: impl Fn(usize, usize) -> T + Sync,
+    band: impl Fn(Range<usize>, &[T]) + Sync,
+) -> Option<Vec<T>> {
     let (width, height) = (width as usize, height as usize);
     let tiles = |end: usize| (0..end.div_ceil(TILE)).map(move |i| i * TILE..((i + 1) * TILE).min(end));
-    let bands: Vec<Vec<T>> = tiles(height)
+    let bands: Option<Vec<Vec<T>>> = tiles(height)
         .collect::<Vec<_>>()
         .into_par_iter()
         .with_max_len(1) // Else one thread may be left with many when the others are done.
         .map(|rows| {
-            let places = |columns: Range<usize>| {
-                rows.clone().flat_map(move |row| columns.clone().map(move |c| (c, row)))
-            };
-            tiles(width).flat_map(places).map(|(column, row)| of(column, row)).collect()
+            let mut found = Vec::with_capacity(width * rows.len());
+            for columns in tiles(width) {
+                if stop.is_set() {
+                    return None;
+                }
+                let places = rows.clone().flat_map(|row| columns.clone().map(move |column| (column, row)));
+                found.extend(places.map(|(column, row)| of(column, row)));
+            }
+            let found = in_rows(&found, width, rows.len());
+            band(rows, &found);
+            Some(found)
         })
         .collect();
-    let mut all = Vec::with_capacity(width * height);
-    for band in bands {
-        let rows = band.len() / width.max(1);
-        for row in 0..rows {
-            for columns in tiles(width) {
-                let first = columns.start * rows + row * columns.len();
-                all.extend_from_slice(&band[first..first + columns.len()]);
-            }
+    Some(bands?.concat())
+}
+
+/// A row of tiles, from tile by tile to row by row.
+fn in_rows<T: Clone>(tiled: &[T], width: usize, rows: usize) -> Vec<T> {
+    let mut all = Vec::with_capacity(tiled.len());
+    for row in 0..rows {
+        for start in (0..width).step_by(TILE) {
+            let columns = TILE.min(width - start);
+            let first = start * rows + row * columns;
+            all.extend_from_slice(&tiled[first..first + columns]);
         }
     }
     all

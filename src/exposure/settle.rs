@@ -4,11 +4,12 @@
 //! enough. What is not settled is measured again, as finely as follows from that. Every pixel decides by itself and by what its
 //! neighbours were in the pass before, so the picture is the same on any number of threads.
 
-use super::{BRIGHTEST, Sampling, by_pixel, phase};
+use super::{BRIGHTEST, Sampling, by_pixel_until, phase};
 use crate::color::{Discrimination, Lab};
 use crate::film::{Development, Negative};
 use crate::observer::View;
 use crate::spectrum::Wavelengths;
+use crate::stop::Stop;
 use crate::trace::{Cone, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -38,7 +39,7 @@ const RULES: f64 = 0.2;
 const RESOLVED: f64 = 0.4;
 
 /// A picture that is settled, and how far.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Settled {
     /// The picture.
     pub negative: Negative,
@@ -49,7 +50,7 @@ pub struct Settled {
 }
 
 /// How far a picture may be from the converged one, in CIEDE2000 as it is shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Uncertainty {
     /// In the mean.
     pub mean: f64,
@@ -148,11 +149,23 @@ pub fn expose_settled(
     development: &Development,
     tolerance: f64,
 ) -> Settled {
+    let tolerance = (tolerance, &Stop::never());
+    expose_settled_until(lit, view, sampling, development, tolerance).unwrap_or_default()
+}
+
+/// The same; none if it was stopped.
+pub fn expose_settled_until(
+    lit: &Lit<'_>,
+    view: &View,
+    sampling: &Sampling,
+    development: &Development,
+    (tolerance, stop): (f64, &Stop),
+) -> Option<Settled> {
     let lit = &lit.seen_from(view.tetrad.event);
     let measuring = Measuring::new(lit, view, sampling, development);
     let wavelengths = if sampling.wavelengths == 3 { 3 } else { 16 };
     let first = |column, row| measuring.pixel((column, row), None, FIRST, wavelengths);
-    let mut pixels = by_pixel(sampling.width, sampling.height, first);
+    let mut pixels = by_pixel_until((sampling.width, sampling.height), stop, first, |_, _| {})?;
     let mut looked_at: Vec<usize> = (0..pixels.len()).collect();
     loop {
         let unsettled = |number: &usize| measuring.unsettled(&pixels, *number);
@@ -166,9 +179,10 @@ pub fn expose_settled(
             break;
         }
         let finer = |(number, (samples, wavelengths)): &(usize, (u32, u32))| {
-            measuring.pixel(measuring.place(*number), Some(&pixels[*number]), *samples, *wavelengths)
+            let place = measuring.place(*number);
+            (!stop.is_set()).then(|| measuring.pixel(place, Some(&pixels[*number]), *samples, *wavelengths))
         };
-        let finer: Vec<Pixel> = open.par_iter().map(finer).collect();
+        let finer: Vec<Pixel> = open.par_iter().map(finer).collect::<Option<_>>()?;
         // What they have met may be near to others, too.
         let mut near = vec![false; pixels.len()];
         for ((number, _), pixel) in open.iter().zip(finer) {
@@ -178,7 +192,7 @@ pub fn expose_settled(
         looked_at = (0..pixels.len()).filter(|number| near[*number]).collect();
     }
     let taken: f64 = pixels.iter().map(|pixel| f64::from(pixel.taken)).sum();
-    Settled {
+    Some(Settled {
         error: Uncertainty::of(pixels.iter().map(|pixel| SAFETY * (pixel.own + pixel.unresolved)).collect()),
         samples: taken / pixels.len().max(1) as f64,
         negative: Negative {
@@ -189,7 +203,7 @@ pub fn expose_settled(
                 .map(|pixel| pixel.sums.mean().min(DVec3::splat(BRIGHTEST)).as_vec3().to_array())
                 .collect(),
         },
-    }
+    })
 }
 
 /// The rules over wavelengths that a pixel may need.

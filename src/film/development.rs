@@ -100,7 +100,7 @@ impl Curve {
     }
 }
 
-/// Cone responses of linear sRGB by which OKLab is made: its a and b, and so its hue, are linear in their cube roots.
+/// Cone responses of linear sRGB by which `OKLab` is made: its a and b, and so its hue, are linear in their cube roots.
 ///
 /// Source: B. Ottosson, "A perceptual color space for image processing", 2020.
 static CONES_FROM_RGB: LazyLock<DMat3> = LazyLock::new(|| {
@@ -118,7 +118,7 @@ static CONES_FROM_RGB: LazyLock<DMat3> = LazyLock::new(|| {
 });
 static RGB_FROM_CONES: LazyLock<DMat3> = LazyLock::new(|| CONES_FROM_RGB.inverse());
 
-/// A straight line of OKLab from a grey to a colour: at all its places the hue is the same.
+/// A straight line of `OKLab` from a grey to a colour: at all its places the hue is the same.
 struct HueLine {
     grey: DVec3,
     away: DVec3,

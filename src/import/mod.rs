@@ -214,7 +214,7 @@ pub fn load_with<T: Send>(
 /// Reads a picture file that the user names, and takes note of it.
 pub fn picture_file(path: &Path, inputs: &mut Inputs) -> Result<crate::texture::Picture, Error> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (mut files, _, bytes) = Files::open(path, folder)?;
+    let (mut files, _, bytes) = Files::open(path, folder).inspect_err(|_| inputs.depend(path))?;
     inputs.add(path, &bytes);
     let name = path.to_string_lossy();
     picture::decode(&bytes, &name, &mut files).map_err(|refusal| Error::from(refusal.at(Place::file(path))))

@@ -103,6 +103,7 @@ impl Bases<'_> {
                 format!("manifests that extend one another, more than {DEEPEST} deep or {MOST_FILES} in all");
             return self.fault(name, what, "write some of them as one");
         }
+        self.report.inputs.depend(&path);
         let text = match read_text(&path) {
             Ok(text) => text,
             Err(why) => {

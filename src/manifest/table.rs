@@ -88,6 +88,7 @@ fn csv(node: &Node, reader: &mut Reader<'_>) -> Read<Vec<Row>> {
     let text: Arc<str> = match read_text(&path) {
         Ok(text) => text.into(),
         Err(why) => {
+            reader.report.inputs.depend(&path);
             let what = format!("the table `{}`: {why}", path.display());
             return Err(reader.fault(&node.place, what, "paths are relative to the manifest's folder"));
         }

@@ -1,5 +1,7 @@
 //! What is to be rendered: the exposures of a film, how, and where they go.
 
+pub mod cost;
+pub mod meaning;
 pub mod needs;
 
 mod limits;

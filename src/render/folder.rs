@@ -6,12 +6,14 @@
 use super::{Step, files};
 use crate::error::{Error, Fault, Place};
 use crate::output;
-use crate::plan::{Fingerprint, Picture, Plan};
+use crate::plan::{Exposure, Fingerprint, Picture, Plan};
+use crate::stop::Stop;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The file that is locked while a film is rendered into the folder.
 const LOCK: &str = ".terrell.lock";
@@ -31,7 +33,14 @@ pub(super) struct Folder {
 /// Makes the folder ready for some exposures of the film.
 ///
 /// Faults: pictures of another film that are there, unless the plan says to begin anew.
-pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Step)) -> Result<Folder, Error> {
+///
+/// None if it was stopped while another process was waited for.
+pub(super) fn open(
+    plan: &Plan,
+    chosen: &Range<usize>,
+    stop: &Stop,
+    tell: &mut impl FnMut(Step),
+) -> Result<Option<Folder>, Error> {
     std::fs::create_dir_all(&plan.folder)
         .map_err(|source| Error::machine(&plan.folder, "creating the folder", source))?;
     let own = plan.fingerprint().filter(|_| !plan.restart);
@@ -39,7 +48,10 @@ pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Ste
         // Before waiting, and again when nobody else writes.
         refuse_others(plan, own, &there(plan)?)?;
     }
-    let lock = lock(plan, tell)?;
+    let lock = lock(plan, stop, tell)?;
+    if stop.is_set() {
+        return Ok(None);
+    }
     if lock.is_some() {
         output::remove_parts(&plan.folder, |name| {
             picture(name).is_some() || plan.film_files.iter().any(|film| film == name)
@@ -59,7 +71,7 @@ pub(super) fn open(plan: &Plan, chosen: &Range<usize>, tell: &mut impl FnMut(Ste
     } else if chosen.len() == plan.exposures.len() {
         remove_others(plan.fingerprint().as_ref(), &there)?;
     }
-    Ok(Folder { kept, _lock: lock })
+    Ok(Some(Folder { kept, _lock: lock }))
 }
 
 /// Held while a film is rendered. Nothing is written into it: it says by being locked.
@@ -96,15 +108,18 @@ fn is_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Waits until no other process renders into the folder. None where the disk knows no locks.
-fn lock(plan: &Plan, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error> {
+/// How often it is tried again to lock what another process has locked.
+const BETWEEN_TRIES: Duration = Duration::from_millis(50);
+
+/// Waits until no other process renders into the folder. None where the disk knows no locks, or if it was stopped.
+fn lock(plan: &Plan, stop: &Stop, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error> {
     let path = plan.folder.join(LOCK);
     if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
         let what = format!("`{LOCK}` is there, and is no file");
         return Err(Fault::new(Place::file(&plan.folder), what, "remove it, or --out FOLDER").into());
     }
     let mut told = false;
-    loop {
+    while !stop.is_set() {
         let wrong = |doing: &str, source| Error::machine(&path, doing, source);
         let open = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
         let file = open.map_err(|source| wrong("opening", source))?;
@@ -115,7 +130,8 @@ fn lock(plan: &Plan, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error>
                     tell(Step::Waiting(plan.folder.clone()));
                 }
                 told = true;
-                file.lock().map_err(|source| wrong("locking", source))?;
+                std::thread::sleep(BETWEEN_TRIES);
+                continue;
             }
             Err(TryLockError::Error(_)) => {
                 tell(Step::Unlocked(plan.folder.clone()));
@@ -127,6 +143,7 @@ fn lock(plan: &Plan, tell: &mut impl FnMut(Step)) -> Result<Option<Lock>, Error>
             return Ok(Some(Lock { path, file }));
         }
     }
+    Ok(None)
 }
 
 /// A file with the name of a picture.
@@ -181,6 +198,11 @@ fn there(plan: &Plan) -> Result<Vec<There>, Error> {
     // What is looked at first is told first.
     there.sort_by(|a, b| (a.index, b.picture, &a.path).cmp(&(b.index, a.picture, &b.path)));
     Ok(there)
+}
+
+/// How many of the pictures of these exposures are there.
+pub(super) fn count(plan: &Plan, exposures: &[Exposure]) -> usize {
+    exposures.iter().filter(|exposure| plan.picture(exposure.index, Picture::Png).is_file()).count()
 }
 
 /// A fault if pictures of another film are there.

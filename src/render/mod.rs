@@ -7,13 +7,14 @@ mod layers;
 mod scales;
 
 use crate::error::Error;
-use crate::exposure::{Bands, Sampling, Uncertainty, expose, expose_settled, expose_spectral};
+use crate::exposure::{Bands, Sampling, Uncertainty, expose_settled_until, expose_spectral, expose_until};
 use crate::film::{Brightness, Development, Negative};
 use crate::observer::View;
 use crate::output::{self, FilmKind, Making};
 use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
 use crate::stereo::{self, Layout, Side, Stereo};
+use crate::stop::Stop;
 use scales::Scales;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -84,15 +85,26 @@ pub fn render(
     chosen: std::ops::Range<usize>,
     tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
+    render_until(scene, plan, chosen, &Stop::never(), tell)
+}
+
+/// The same; when it is stopped the pictures that are finished stay, and nothing else is left behind.
+pub fn render_until(
+    scene: &Scene,
+    plan: &Plan,
+    chosen: std::ops::Range<usize>,
+    stop: &Stop,
+    tell: impl FnMut(Step) + Send,
+) -> Result<(), Error> {
     let mut tell = tell;
     // Both eyes' films are developed alike.
     let mut known = None;
     if !scene.observer.stereo.is_some_and(|eyes| eyes.layout == Layout::LeftRight) {
-        return render_film(scene, plan, chosen, &mut known, tell);
+        return render_film(scene, plan, chosen, (&mut known, stop), tell);
     }
     Side::BOTH.into_iter().try_for_each(|side| {
         let plan = Plan { eye: Some(side), folder: plan.folder.join(side.name()), ..plan.clone() };
-        render_film(scene, &plan, chosen.clone(), &mut known, &mut tell)
+        render_film(scene, &plan, chosen.clone(), (&mut known, stop), &mut tell)
     })
 }
 
@@ -100,15 +112,20 @@ fn render_film(
     scene: &Scene,
     plan: &Plan,
     chosen: std::ops::Range<usize>,
-    known: &mut Option<Development>,
+    (known, stop): (&mut Option<Development>, &Stop),
     mut tell: impl FnMut(Step) + Send,
 ) -> Result<(), Error> {
-    let folder = folder::open(plan, &chosen, &mut tell)?;
+    let stopped = |done: usize, of: usize| stopped(plan, done, of);
+    let folder = folder::open(plan, &chosen, stop, &mut tell)?.ok_or_else(|| stopped(0, chosen.len()))?;
     if !folder.kept.is_empty() {
         tell(Step::Kept(folder.kept.len()));
     }
     let exposures = plan.exposures.get(chosen).unwrap_or(&[]);
-    let development = &*known.get_or_insert_with(|| development(scene, plan));
+    let all = exposures.len();
+    if known.is_none() {
+        *known = development_until(scene, plan, stop);
+    }
+    let development = known.as_ref().ok_or_else(|| stopped(folder.kept.len(), all))?;
     tell(Step::Metered(development.white));
     let scales = scales::of(scene, plan);
     let comment = about::lines(&about::of_film(plan, development.white));
@@ -118,7 +135,7 @@ fn render_film(
     // Files are written and the film encoded beside the tracing of the next picture.
     std::thread::scope(|scope| {
         let (prints, inbox) = sync_channel(1);
-        let writer = scope.spawn(move || file_all(plan, scales.as_ref(), films, &inbox, tell));
+        let writer = scope.spawn(move || file_all(plan, scales.as_ref(), films, (&inbox, stop), tell));
         let mut last = None;
         for exposure in exposures {
             if folder.kept.contains(&exposure.index) {
@@ -127,10 +144,9 @@ fn render_film(
                 }
                 continue;
             }
-            let exposed: Exposed = last
-                .take()
-                .filter(|_| plan.still)
-                .unwrap_or_else(|| exposed(scene, plan, exposure, development));
+            let exposed: Option<Exposed> =
+                last.take().or_else(|| exposed(scene, plan, exposure, (development, stop)));
+            let Some(exposed) = exposed else { break };
             if plan.still {
                 last = Some(exposed.clone());
             }
@@ -140,8 +156,15 @@ fn render_film(
             }
         }
         drop(prints);
-        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        let written = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        if written { Ok(()) } else { Err(stopped(folder::count(plan, exposures), all)) }
     })
+}
+
+fn stopped(plan: &Plan, done: usize, of: usize) -> Error {
+    let (are, folder) = (if of == 1 { "picture is" } else { "pictures are" }, plan.folder.display());
+    let goes_on = if plan.restart { "without --restart the same command" } else { "the same command" };
+    Error::Stopped { there: format!("{done} of {of} {are} in {folder}; {goes_on} goes on") }
 }
 
 /// Where the films go, if there are to be any: only of all exposures they are made.
@@ -165,13 +188,19 @@ fn view(scene: &Scene, plan: &Plan, exposure: &Exposure) -> View {
     }
 }
 
-fn exposed(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Development) -> Exposed {
+/// None if it was stopped.
+fn exposed(
+    scene: &Scene,
+    plan: &Plan,
+    exposure: &Exposure,
+    (development, stop): (&Development, &Stop),
+) -> Option<Exposed> {
     // Of a still film always the first, so that a part of it has the same bytes.
     let exposure = if plan.still { &plan.exposures[0] } else { exposure };
     let view = view(scene, plan, exposure);
-    let of = |view: &View| exposed_by(scene, plan, view, development);
+    let of = |view: &View| exposed_by(scene, plan, view, (development, stop));
     let Some(Stereo { apart, layout: Layout::Anaglyph }) = scene.observer.stereo else { return of(&view) };
-    let [left, right] = Side::BOTH.map(|side| of(&view.eye(side, apart)));
+    let (left, right) = (of(&view.eye(Side::Left, apart))?, of(&view.eye(Side::Right, apart))?);
     let settling = left.settling.zip(right.settling).map(|(one, other)| Settling {
         error: Uncertainty {
             mean: one.error.mean.max(other.error.mean),
@@ -179,20 +208,27 @@ fn exposed(scene: &Scene, plan: &Plan, exposure: &Exposure, development: &Develo
         },
         samples: one.samples + other.samples,
     });
-    Exposed { negative: stereo::anaglyph(&left.negative, &right.negative), settling, bands: None }
+    Some(Exposed { negative: stereo::anaglyph(&left.negative, &right.negative), settling, bands: None })
 }
 
-fn exposed_by(scene: &Scene, plan: &Plan, view: &View, development: &Development) -> Exposed {
+fn exposed_by(
+    scene: &Scene,
+    plan: &Plan,
+    view: &View,
+    (development, stop): (&Development, &Stop),
+) -> Option<Exposed> {
+    let lit = scene.lit();
     if let Some(tolerance) = plan.tolerance {
-        let settled = expose_settled(&scene.lit(), view, &plan.sampling, development, tolerance);
+        let settled = expose_settled_until(&lit, view, &plan.sampling, development, (tolerance, stop))?;
         let settling = Settling { error: settled.error, samples: settled.samples };
-        return Exposed { negative: settled.negative, settling: Some(settling), bands: None };
+        return Some(Exposed { negative: settled.negative, settling: Some(settling), bands: None });
     }
     if plan.outputs.spectrum() {
         let (negative, bands) = expose_spectral(scene, view, &plan.sampling);
-        return Exposed { negative, settling: None, bands: Some(bands) };
+        return Some(Exposed { negative, settling: None, bands: Some(bands) }).filter(|_| !stop.is_set());
     }
-    Exposed { negative: expose(scene, view, &plan.sampling), settling: None, bands: None }
+    let negative = expose_until(&lit, view, &plan.sampling, stop)?;
+    Some(Exposed { negative, settling: None, bands: None })
 }
 
 fn print(
@@ -214,16 +250,18 @@ fn print(
     Print { exposure: *exposure, rgb, fine, negative, settling, bands, seen, white, text }
 }
 
+/// Writes what comes; whether that was all, or it was stopped.
 fn file_all(
     plan: &Plan,
     scales: Option<&Scales>,
     mut films: Vec<(Making, PathBuf)>,
-    inbox: &Receiver<Sheet>,
+    (inbox, stop): (&Receiver<Sheet>, &Stop),
     mut tell: impl FnMut(Step),
-) -> Result<(), Error> {
+) -> Result<bool, Error> {
     for sheet in inbox {
         let print = match sheet {
             Sheet::New(print) => print,
+            Sheet::Kept(_) if stop.is_set() => continue,
             Sheet::Kept(index) => {
                 if !films.is_empty() {
                     let rgb = files::read(plan, index)?;
@@ -239,12 +277,15 @@ fn file_all(
     // One that fails leaves the others as they are.
     let mut done = Ok(());
     for (film, path) in films {
+        if stop.is_set() {
+            break;
+        }
         match film.finish(&|index| files::read(plan, index)) {
             Ok(()) => tell(Step::Film(path)),
             Err(error) => done = done.and(Err(error)),
         }
     }
-    done
+    done.map(|()| !stop.is_set())
 }
 
 /// Columns of the small pictures by which a film is metered, and how many there are at most.
@@ -253,10 +294,45 @@ const METER_PICTURES: usize = 48;
 
 /// How every picture of the film is developed, whichever of them are rendered.
 pub fn development(scene: &Scene, plan: &Plan) -> Development {
-    if let (White::Fixed(white), Some(headroom)) = (plan.white, plan.headroom) {
-        return Development::new(white, headroom);
+    development_until(scene, plan, &Stop::never()).unwrap_or_else(|| developed(plan, None))
+}
+
+/// The same; none if it was stopped.
+pub fn development_until(scene: &Scene, plan: &Plan, stop: &Stop) -> Option<Development> {
+    let Some(Metering { small, every, .. }) = metering(plan) else { return Some(developed(plan, None)) };
+    let mut pixels = Vec::new();
+    for exposure in plan.exposures.iter().step_by(every) {
+        let view = scene.observer.view(exposure.tau, small.width, small.height);
+        pixels.extend(expose_until(&scene.lit(), &view, &small, stop)?.xyz);
     }
-    let brightness = brightness(scene, plan).unwrap_or(Brightness { white: 1.0, brightest: 1.0 });
+    Some(developed(plan, Brightness::of(pixels)))
+}
+
+/// How a film is metered.
+pub(crate) struct Metering {
+    /// What the small pictures are like.
+    pub(crate) small: Sampling,
+    /// From one of them to the next.
+    pub(crate) every: usize,
+    /// How many they are.
+    pub(crate) pictures: usize,
+}
+
+/// How a film is metered; none where the manifest says all that there is to be found.
+pub(crate) fn metering(plan: &Plan) -> Option<Metering> {
+    if matches!(plan.white, White::Fixed(_)) && plan.headroom.is_some() {
+        return None;
+    }
+    // Of the same picture over and over, one is enough.
+    let pictures = if plan.still { 1 } else { METER_PICTURES };
+    let every = plan.exposures.len().div_ceil(pictures).max(1);
+    let small = Sampling { samples: 1, ..plan.sampling.within(METER_COLUMNS) };
+    Some(Metering { small, every, pictures: plan.exposures.len().div_ceil(every) })
+}
+
+/// How pictures of this brightness are developed.
+pub(crate) fn developed(plan: &Plan, brightness: Option<Brightness>) -> Development {
+    let brightness = brightness.unwrap_or(Brightness { white: 1.0, brightest: 1.0 });
     let white = match plan.white {
         White::Fixed(white) => white,
         White::Auto { gain } => brightness.white / gain,
@@ -268,12 +344,3 @@ pub fn development(scene: &Scene, plan: &Plan) -> Development {
 /// Headroom where the film says it: at least so much that highlights end softly, at most what a searchlight at γ = 50 needs.
 const LEAST_HEADROOM: f64 = 1.0;
 const MOST_HEADROOM: f64 = 24.0;
-
-fn brightness(scene: &Scene, plan: &Plan) -> Option<Brightness> {
-    let small = Sampling { samples: 1, ..plan.sampling.within(METER_COLUMNS) };
-    let every = plan.exposures.len().div_ceil(METER_PICTURES).max(1);
-    Brightness::of(plan.exposures.iter().step_by(every).flat_map(|exposure| {
-        let view = scene.observer.view(exposure.tau, small.width, small.height);
-        expose(scene, &view, &small).xyz
-    }))
-}

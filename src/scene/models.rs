@@ -53,6 +53,7 @@ impl Models {
         let (there, absent): (Vec<_>, Vec<_>) = files.into_iter().partition(|file| file.exists());
         let files = there;
         for file in absent {
+            report.inputs.depend(file);
             missing(file, manifest, report);
         }
         let folder = manifest_path.parent().unwrap_or(Path::new(""));
@@ -66,8 +67,13 @@ impl Models {
                     report.inputs.extend(model.asset.inputs.clone());
                     models.insert(file.to_owned(), model);
                 }
-                Err(Error::Input(faults)) => report.faults.extend(faults),
-                Err(error) => report.fault(crate::error::Place::file(file), error.to_string(), ""),
+                Err(error) => {
+                    report.inputs.depend(file);
+                    match error {
+                        Error::Input(faults) => report.faults.extend(faults),
+                        error => report.fault(crate::error::Place::file(file), error.to_string(), ""),
+                    }
+                }
             }
         }
         Self(models)

@@ -51,6 +51,7 @@ fn origin(origin: &StarOrigin, report: &mut Report) -> Vec<Star> {
                 parse_catalogue(&file.value, &text.into(), report).unwrap_or_default()
             }
             Err(why) => {
+                report.inputs.depend(&file.value);
                 let place: Place = file.place.clone();
                 report.fault(place, format!("the catalogue `{}`: {why}", file.value.display()), "");
                 Vec::new()

@@ -145,9 +145,9 @@ impl Track {
         for _ in 0..64 {
             let past = known + piece.length(from, t) - own;
             if past > 0.0 {
-                late = t
+                late = t;
             } else {
-                early = t
+                early = t;
             }
             let step = t - past / rate(piece.at(t).1);
             let next = if step >= early && step <= late { step } else { 0.5 * (early + late) };

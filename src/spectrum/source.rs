@@ -187,6 +187,11 @@ impl Source {
         self.smooth.is_empty() && self.lines.is_empty()
     }
 
+    /// Whether there is nothing between its lines.
+    pub fn is_of_lines(&self) -> bool {
+        self.smooth.is_empty() && !self.lines.is_empty()
+    }
+
     /// The lines, wavelengths in the source's rest frame.
     pub fn lines(&self) -> &[Line] {
         &self.lines

@@ -8,6 +8,7 @@
 //! the way to a surface; `mirror.rs` and `glass.rs` send rays on; `split.rs` parts the wavelengths where an index
 //! depends on them.
 
+mod caught;
 mod direct;
 mod first;
 mod glass;
@@ -16,6 +17,7 @@ mod mirror;
 mod passage;
 mod split;
 
+pub use caught::SeenLine;
 pub use first::First;
 
 use crate::lamp::Lamp;

@@ -24,6 +24,10 @@ impl Caught {
     pub(super) fn new(of: &Line, wavelength_nm: f64, power: f64) -> Self {
         Self { of, wavelength_nm, power }
     }
+
+    pub(super) fn seen(&self) -> super::SeenLine {
+        super::SeenLine { of: self.of, wavelength_nm: self.wavelength_nm, power: self.power }
+    }
 }
 
 /// A line's wavelength has been found when it changes by less than this part.
