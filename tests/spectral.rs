@@ -46,7 +46,7 @@ fn a_line_is_in_its_part_with_all_of_its_power() {
 light_speed: 1 m/s
 surroundings: {{ uniform: {{ luminance: 50 cd/m2, spectrum: {{ line: 589 nm }} }} }}
 observer: {{ velocity: 0 0 {} c, direction: 0 0 -1 }}
-picture: {{ size: 1 1, samples: 4 }}",
+picture: {{ size: 1 1, samples: 1 }}",
             -beta
         );
         let (negative, bands) = spectral(&text, 16);
