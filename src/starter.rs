@@ -135,9 +135,10 @@ impl Draft {
 struct Seen {
     /// The part of the middle picture that it covers.
     part: f64,
-    /// Its luminances in the middle picture, and in all that were looked at, rising.
-    middle: Vec<f64>,
-    all: Vec<f64>,
+    /// Its median luminance in the middle picture.
+    median: f64,
+    /// The luminance below which 98 of 100 of its pixels are, in each of the pictures.
+    bright: f64,
 }
 
 impl Seen {
@@ -149,24 +150,25 @@ impl Seen {
             let hits = first_hits(scene, &view, width, height);
             let pixels = expose(scene, &view, &sampling).xyz;
             let own = hits.iter().zip(&pixels).filter(|(hit, _)| hit.is_some_and(|hit| hit.body == 0));
-            own.map(|(_, xyz)| f64::from(xyz[1])).collect()
+            let mut own: Vec<f64> = own.map(|(_, xyz)| f64::from(xyz[1])).collect();
+            own.sort_unstable_by(f64::total_cmp);
+            own
         };
         let middle = plan.exposures.len() / 2;
-        let mut all: Vec<f64> = [0, middle / 2].into_iter().flat_map(model).collect();
-        let mut middle = model(middle);
-        all.extend(&middle);
-        middle.sort_unstable_by(f64::total_cmp);
-        all.sort_unstable_by(f64::total_cmp);
-        Self { part: middle.len() as f64 / (f64::from(width) * f64::from(height)), middle, all }
+        let before = [0, middle / 2].map(model);
+        let middle = model(middle);
+        let bright = before.iter().chain([&middle]).map(|own| quantile(own, 0.98)).fold(0.0, f64::max);
+        let part = middle.len() as f64 / (f64::from(width) * f64::from(height));
+        Self { part, median: quantile(&middle, 0.5), bright }
     }
 
     fn is_dark(&self) -> bool {
-        quantile(&self.middle, 0.5) <= 0.01 * quantile(&self.all, 0.98)
+        self.median <= 0.01 * self.bright
     }
 
     /// Half of the model is darker than some part of white, and hardly any of it brighter than white.
     fn white(&self) -> Option<f64> {
-        let white = (quantile(&self.middle, 0.5) / MEDIAN).max(quantile(&self.all, 0.98));
+        let white = (self.median / MEDIAN).max(self.bright);
         (white > 0.0).then_some(white)
     }
 }

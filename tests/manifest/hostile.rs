@@ -323,7 +323,8 @@ fn greedy_texts_are_read_or_refused_within_100_megabytes() {
         let mut shell = std::process::Command::new("sh");
         let limited = r#"ulimit -d 100000 && exec "$0" check "$1""#;
         let output = shell.args(["-c", limited, env!("CARGO_BIN_EXE_terrell")]).arg(&file).output().unwrap();
-        assert_eq!(output.status.code(), Some(2), "{number}: {}", String::from_utf8_lossy(&output.stderr));
+        let read = matches!(output.status.code(), Some(0 | 2));
+        assert!(read, "{number}: {}", String::from_utf8_lossy(&output.stderr));
         assert!(begun.elapsed() < Duration::from_secs(5), "{number}: {:?}", begun.elapsed());
     }
 }
