@@ -48,8 +48,9 @@ const PICTURES: f64 = 54.0;
 const FILM: f64 = 20.0;
 const LAYERS: f64 = 220.0;
 const SETTLING: f64 = 420.0;
-/// What the threads and the rest take, bytes.
+/// What threads and the rest take, and what the coding of a film takes of any size, bytes.
 const BESIDE: f64 = 4e6;
+const CODER: f64 = 8e6;
 
 /// What the whole film will cost. Takes two seconds or less, but for scenes of which a few squares take longer.
 pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
@@ -197,5 +198,5 @@ fn memory(plan: &Plan) -> Option<f64> {
         + if plan.outputs.exr.is_some() { LAYERS } else { 0.0 }
         + if plan.tolerance.is_some() { SETTLING } else { 0.0 };
     let pixels = f64::from(plan.sampling.width) * f64::from(plan.sampling.height);
-    Some(most.max(now + pixels * pixel + BESIDE))
+    Some(most.max(now + pixels * pixel + BESIDE + CODER * film))
 }
