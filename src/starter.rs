@@ -33,7 +33,7 @@ const HALF_VIEW: (f64, f64) = (0.466, 0.262);
 const FILLED: f64 = 0.75;
 /// Columns of the small pictures.
 const COLUMNS: u32 = 64;
-/// The part of white that half of the model is darker than, in the middle of the film.
+/// The part of white that half of the model is darker than, where most of it is seen.
 const MEDIAN: f64 = 0.4;
 
 /// The text of a manifest for a model, to be written to `file`.
@@ -133,9 +133,9 @@ impl Draft {
 
 /// What small pictures show of the model.
 struct Seen {
-    /// The part of the middle picture that it covers.
+    /// The part of the picture that it covers where it covers most.
     part: f64,
-    /// Its median luminance in the middle picture.
+    /// Its median luminance there.
     median: f64,
     /// The luminance below which 98 of 100 of its pixels are, in each of the pictures.
     bright: f64,
@@ -155,11 +155,13 @@ impl Seen {
             own
         };
         let middle = plan.exposures.len() / 2;
-        let before = [0, middle / 2].map(model);
-        let middle = model(middle);
-        let bright = before.iter().chain([&middle]).map(|own| quantile(own, 0.98)).fold(0.0, f64::max);
-        let part = middle.len() as f64 / (f64::from(width) * f64::from(height));
-        Self { part, median: quantile(&middle, 0.5), bright }
+        let pictures = [middle, 0, middle / 2].map(model);
+        let bright = pictures.iter().map(|own| quantile(own, 0.98)).fold(0.0, f64::max);
+        // Thin things are not seen from all sides.
+        let most =
+            pictures.iter().fold(&pictures[0], |most, own| if own.len() > most.len() { own } else { most });
+        let part = most.len() as f64 / (f64::from(width) * f64::from(height));
+        Self { part, median: quantile(most, 0.5), bright }
     }
 
     fn is_dark(&self) -> bool {
