@@ -2,7 +2,7 @@
 
 mod development;
 
-pub use development::Development;
+pub use development::{Development, encode, encode_finely};
 
 use crate::color::RGB_FROM_XYZ;
 use glam::{DVec2, DVec3};

@@ -44,14 +44,18 @@ impl Inputs {
         self.others.extend(other.others);
     }
 
-    /// The digest of all files with their names, whatever folders they are in.
+    /// The digest of all files with their names, wherever the folder is that they are in.
     pub fn of_files(&self) -> Digest {
+        let mut folder = self.files.keys().next().and_then(|path| path.parent()).unwrap_or(Path::new(""));
+        for path in self.files.keys() {
+            while !path.starts_with(folder) {
+                folder = folder.parent().unwrap_or(Path::new(""));
+            }
+        }
         let named = |(path, content): (&PathBuf, &Digest)| {
-            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            (digest(name), *content)
+            let name = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
+            [digest(name), *content]
         };
-        let mut all: Vec<(Digest, Digest)> = self.files.iter().map(named).collect();
-        all.sort_unstable();
-        digest(all.into_iter().flat_map(|(name, content)| [name, content]).flatten().collect::<Vec<u8>>())
+        digest(self.files.iter().flat_map(named).flatten().collect::<Vec<u8>>())
     }
 }

@@ -108,6 +108,17 @@ impl Observer {
     }
 }
 
+impl Observer {
+    /// All that pictures are made of: what each eye sees, where they do not share one picture.
+    pub fn views(&self, tau: f64, width: u32, height: u32) -> impl Iterator<Item = View> + use<> {
+        let view = self.view(tau, width, height);
+        let eyes = self.stereo.filter(|eyes| eyes.layout != Layout::SideBySide);
+        let both = eyes.map(|eyes| Side::BOTH.map(|side| view.eye(side, eyes.apart)));
+        let one = if both.is_none() { Some(view) } else { None };
+        both.into_iter().flatten().chain(one)
+    }
+}
+
 impl View {
     /// What one of two eyes sees that are `apart` (metres), at the same time of the observer's rest frame.
     pub fn eye(&self, side: Side, apart: f64) -> Self {

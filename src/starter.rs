@@ -86,7 +86,6 @@ impl Draft {
         // From every side: as wide as its diagonal.
         let (wide, high) = (size.x.hypot(size.z), size.y);
         let away = (wide / HALF_VIEW.0).max(high / HALF_VIEW.1) / (2.0 * FILLED);
-        let glows = asset.materials.iter().any(|material| material.unlit || material.emissive != [0.0; 3]);
         let stem = file.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
         let model_stem = model.file_stem().map_or_else(|| "model".into(), |stem| stem.to_string_lossy());
         let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
@@ -105,7 +104,7 @@ impl Draft {
             size,
             distance: away + wide / 4.0,
             floor: (!has_floor(asset, (lo, hi))).then_some(lo.y),
-            lit: asset.lights.is_empty() && !glows,
+            lit: asset.lights.is_empty(),
             white: None,
             materials: asset
                 .materials

@@ -58,8 +58,13 @@ impl Side {
     }
 }
 
-/// Both eyes' pictures in one: red is the left one's luminance, green and blue are the right one's. In linear light: what
-/// is grey stays as bright as it is.
+/// Both eyes' pixels, as they are shown (linear sRGB), in one: red is the left one's luminance, green and blue are the right
+/// one's. What is grey stays as bright as it is. (Made one before they are shown, either eye would see what is too bright for the other.)
+pub fn shown([left, right]: [DVec3; 2]) -> DVec3 {
+    DVec3::new((*XYZ_FROM_RGB * left).y, right.y, right.z)
+}
+
+/// The same of light, cd/m².
 pub fn anaglyph(left: &Negative, right: &Negative) -> Negative {
     let both = |(left, right): (&[f32; 3], &[f32; 3])| {
         let right = *RGB_FROM_XYZ * DVec3::from(right.map(f64::from));

@@ -67,7 +67,7 @@ fn first_pictures_of_all_models_are_good() {
                 assert!(comment.trim().len() > 5, "{line}");
             }
             let [first, middle] = shown(&text, Path::new("begun.yaml"), known);
-            // Thin things are not seen from all sides.
+            // Thin things are not seen from all sides; some models are but a ball before a wall.
             let most = if middle.part > first.part { &middle } else { &first };
             let median = most.model.get(most.model.len() / 2).copied().unwrap_or(0.0);
             let clipped = |shown: &Shown| {
@@ -80,7 +80,7 @@ fn first_pictures_of_all_models_are_good() {
                 first.part, middle.part
             );
             let good =
-                first.part > 0.005 && (0.05..0.7).contains(&most.part) && median > 0.01 && clipped < 0.05;
+                first.part > 0.005 && (0.015..0.7).contains(&most.part) && median > 0.01 && clipped < 0.05;
             println!("{told}");
             wrong.extend((!good).then_some(told));
         }

@@ -216,7 +216,8 @@ fn films_of_both_eyes_are_in_folders_of_their_own_and_as_bright() {
 #[test]
 fn pictures_of_both_eyes_in_one_have_what_each_sees() {
     for layout in ["side_by_side", "anaglyph"] {
-        let (_, scene, plan) = manifested(&scene(layout));
+        let (_, scene, mut plan) = manifested(&scene(layout));
+        plan.white = terrell::plan::White::Fixed(1.0);
         let folder = tempfile::tempdir().unwrap();
         let plan = terrell::plan::Plan { folder: folder.path().join("out"), ..plan };
         render(&scene, &plan, 0..1, |_| {}).unwrap();
@@ -225,6 +226,10 @@ fn pictures_of_both_eyes_in_one_have_what_each_sees() {
         if layout == "anaglyph" {
             let first = |channel: usize| (0..64).find(|column| lit(*column, channel)).unwrap();
             assert!(first(0) > first(1) + 5 && first(1) == first(2));
+            // What is far too bright for one eye is nothing to the other.
+            let last = (0..64).rfind(|column| lit(*column, 0)).unwrap();
+            let at = |column: usize, channel: usize| rgb[(16 * 64 + column) * 3 + channel];
+            assert!(at(first(1), 0) == 0 && at(last, 1) == 0 && at(last, 2) == 0);
         } else {
             let first = |from: usize| (from..from + 32).find(|column| lit(*column, 0)).unwrap() - from;
             assert!(first(0) > first(32) + 2);

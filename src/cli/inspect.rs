@@ -19,7 +19,7 @@ pub(super) struct InspectArgs {
 pub(super) fn run(args: &InspectArgs) -> Result<(), Error> {
     let folder = args.model.parent().unwrap_or(Path::new(""));
     let asset = import::load(&args.model, folder)?;
-    eprint!("{}", super::warnings(&asset.warnings));
+    super::say(&super::warnings(&asset.warnings));
     if args.json {
         let text = serde_json::to_string_pretty(&as_json(&asset))
             .map_err(|error| Error::fault(Place::file(&args.model), error.to_string(), ""))?;

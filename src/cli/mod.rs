@@ -1,5 +1,4 @@
 //! The command line: flags as typed become what is meant. Only this folder and `main` print.
-#![expect(clippy::print_stderr, reason = "this is the program's voice")]
 
 mod chart;
 mod check;
@@ -128,7 +127,7 @@ struct CheckArgs {
 
 #[derive(Debug, Args)]
 struct Changes {
-    /// Change a key of the manifest, as in picture.samples=16 or bodies.monkey.velocity="0.5 0 0 c"; film=~ takes one away, lights.+="{ .. }" adds to a list
+    /// Change a key of the manifest, as in picture.samples=16 or bodies.monkey.velocity="0.5 0 0 c"; 'film=~' takes one away, lights.+="{ .. }" adds to a list
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
@@ -164,7 +163,7 @@ pub fn run() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprint!("{}", complaint(&error));
+            say(&complaint(&error));
             ExitCode::from(error.exit_code())
         }
     }
@@ -214,7 +213,7 @@ fn colored() -> bool {
 fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
     let all = prepare_into(path, changes, film, &mut report);
-    eprint!("{}", warnings(&report.warnings));
+    say(&warnings(&report.warnings));
     report.finish(all)
 }
 
@@ -297,7 +296,7 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
     let mut report = Report::default();
     let ready = prepared(path, changes, args, &mut report);
-    eprint!("{}", warnings(&report.warnings));
+    say(&warnings(&report.warnings));
     let (scene, plan) = report.finish(ready)?;
     signals::gently(|stop| render_ready(&scene, &plan, args, stop))
 }
@@ -363,4 +362,9 @@ fn chosen(args: &RenderArgs, count: usize) -> Result<Range<usize>, Error> {
         return Err(Error::fault(Place::Command, what, hint));
     }
     Ok(from..to + 1)
+}
+
+/// Says something beside what is asked for. If nobody listens any more the work goes on.
+fn say(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }

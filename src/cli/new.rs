@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct NewArgs {
     /// The model file (.glb, .gltf, .obj)
     model: PathBuf,
-    /// The observer flies past it
-    #[arg(long, required_unless_present = "turntable", conflicts_with = "turntable")]
+    /// The observer flies past it (unless said)
+    #[arg(long, conflicts_with = "turntable")]
     flyby: bool,
     /// The observer circles it
     #[arg(long)]
@@ -27,7 +27,11 @@ pub(super) struct NewArgs {
 
 /// Writes a manifest.
 pub(super) fn run(args: &NewArgs) -> Result<(), Error> {
-    let (motion, word) = if args.flyby { (Motion::Flyby, "flyby") } else { (Motion::Turntable, "turntable") };
+    let (motion, word, shows) = if args.turntable {
+        (Motion::Turntable, "turntable", "--exposure 0 shows its beginning")
+    } else {
+        (Motion::Flyby, "flyby", "--exposure 48 shows its middle")
+    };
     let stem = args.model.file_stem().map_or_else(|| "model".into(), |stem| stem.to_string_lossy());
     let file = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}-{word}.yaml")));
     if file.exists() && !args.force {
@@ -40,8 +44,10 @@ pub(super) fn run(args: &NewArgs) -> Result<(), Error> {
     }
     let text = starter(&args.model, &file, motion)?;
     write_whole(&file, |to| to.write_all(text.as_bytes()))?;
-    let file = file.display();
+    let file = file.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);
+    let typed = if file.chars().all(is_plain) { file.clone() } else { format!("\"{file}\"") };
     super::print(&format!(
-        "{file} is written. terrell render {file} --exposure 48 shows its middle; terrell render {file} makes the film.\n"
+        "{file} is written. terrell render {typed} {shows}; terrell render {typed} makes the film.\n"
     ))
 }

@@ -134,8 +134,8 @@ impl Progress {
 
     fn say(&self, line: &str) {
         match &self.gauge {
-            Some(gauge) => gauge.suspend(|| eprintln!("{line}")),
-            None => eprintln!("{line}"),
+            Some(gauge) => gauge.suspend(|| super::say(&format!("{line}\n"))),
+            None => super::say(&format!("{line}\n")),
         }
     }
 }

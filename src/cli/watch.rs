@@ -17,8 +17,8 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(200);
 
 /// Renders a manifest, and again whenever something of it is saved.
 pub(super) fn run(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
-    let mut first = None;
-    let say = |text: &str| eprint!("{text}");
+    let mut rendered = None;
+    let say = super::say;
     signals::gently(|signal| {
         let done = rounds(path, signal, &say, |stop, files| {
             let mut report = Report::default();
@@ -26,10 +26,14 @@ pub(super) fn run(path: &Path, changes: &[(String, String)], args: &RenderArgs) 
             files(&report, ready.is_none());
             say(&super::warnings(&report.warnings));
             let (scene, mut plan) = report.finish(ready)?;
-            // What is there is a picture of how things were.
+            // What was rendered here before is a picture of how things were; what others have left there stays.
             let fingerprint = plan.fingerprint();
-            plan.restart |= *first.get_or_insert_with(|| fingerprint.clone()) != fingerprint;
-            super::render_ready(&scene, &plan, args, stop)?;
+            plan.restart |= rendered.as_ref().is_some_and(|before| *before != fingerprint);
+            let done = super::render_ready(&scene, &plan, args, stop);
+            if matches!(done, Ok(()) | Err(Error::Stopped { .. })) {
+                rendered = Some(fingerprint);
+            }
+            done?;
             say(&format!(
                 "waiting until {} or a file that it reads is saved: Ctrl-C ends this\n",
                 path.display()

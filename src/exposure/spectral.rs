@@ -12,7 +12,7 @@ use crate::trace::Lit;
 pub struct Bands {
     /// The middle of each part, nm.
     pub nm: Vec<f64>,
-    /// Of each part the mean radiance, W m⁻² sr⁻¹ nm⁻¹, row by row.
+    /// Of each part the radiance at its middle, and its share of what is narrower, W m⁻² sr⁻¹ nm⁻¹, row by row.
     pub radiance: Vec<Vec<f32>>,
 }
 

@@ -25,24 +25,17 @@ impl Development {
 
     /// sRGB bytes of a whole picture.
     pub fn develop(&self, negative: &Negative) -> Vec<u8> {
-        let steps = EncodingSteps::new();
-        let developed = |xyz: &[f32; 3]| {
-            let rgb = self.display(DVec3::from(xyz.map(f64::from)));
-            rgb.to_array().map(|channel| steps.byte(channel))
-        };
-        let pixels: Vec<[u8; 3]> = negative.xyz.par_iter().map(developed).collect();
-        pixels.into_flattened()
+        encode(negative.xyz.len(), |pixel| self.shown(negative, pixel))
     }
 
     /// The same in 16 bits a channel; [`crate::output::eight_of`] each of them is what [`Self::develop`] gives.
     pub fn develop_finely(&self, negative: &Negative) -> Vec<u16> {
-        let steps = EncodingSteps::new();
-        let developed = |xyz: &[f32; 3]| {
-            let rgb = self.display(DVec3::from(xyz.map(f64::from)));
-            rgb.to_array().map(|channel| steps.fine(channel))
-        };
-        let pixels: Vec<[u16; 3]> = negative.xyz.par_iter().map(developed).collect();
-        pixels.into_flattened()
+        encode_finely(negative.xyz.len(), |pixel| self.shown(negative, pixel))
+    }
+
+    /// [`Self::display`] of one pixel.
+    pub fn shown(&self, negative: &Negative, pixel: usize) -> DVec3 {
+        self.display(DVec3::from(negative.xyz[pixel].map(f64::from)))
     }
 
     /// Linear sRGB in 0 to 1. Each colour keeps its hue (of OKLab): what is too bright is compressed by its greatest channel
@@ -65,6 +58,20 @@ impl Development {
         let rgb = whitened(rgb / peak, white_share(libm::log2(peak / compressed)));
         (rgb * (compressed / rgb.max_element())).clamp(DVec3::ZERO, DVec3::ONE)
     }
+}
+
+/// sRGB bytes of so many pixels, given in linear sRGB, 0 to 1.
+pub fn encode(pixels: usize, shown: impl Fn(usize) -> DVec3 + Sync) -> Vec<u8> {
+    let steps = EncodingSteps::new();
+    let encoded = |pixel| shown(pixel).to_array().map(|channel| steps.byte(channel));
+    (0..pixels).into_par_iter().map(encoded).collect::<Vec<_>>().into_flattened()
+}
+
+/// The same in 16 bits.
+pub fn encode_finely(pixels: usize, shown: impl Fn(usize) -> DVec3 + Sync) -> Vec<u16> {
+    let steps = EncodingSteps::new();
+    let encoded = |pixel| shown(pixel).to_array().map(|channel| steps.fine(channel));
+    (0..pixels).into_par_iter().map(encoded).collect::<Vec<_>>().into_flattened()
 }
 
 /// What part of the way to white light goes that is compressed by so many factors of two: with white alone some brightness would

@@ -91,7 +91,11 @@ impl Kind for ExposuresKind {
         let instant_ring = reader.ring && to.value >= from;
         if count > 1 && to.value <= from && !instant_ring {
             let text = |key: &str| node.get(key).and_then(|node| node.text()).unwrap_or("0 s").to_owned();
-            let hint = format!("from: {}, to: {}", text("to"), text("from"));
+            let hint = if to.value == from {
+                "count: 1".to_owned()
+            } else {
+                format!("from: {}, to: {}", text("to"), text("from"))
+            };
             return Err(reader.fault(&to.place, "`to` is not later than `from`", hint));
         }
         Ok(Exposures { place: keys.place, from, to: to.value, count, clock: keys.clock, timed, counted })

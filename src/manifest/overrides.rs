@@ -21,7 +21,7 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
         let shown: Arc<str> = format!("--set {path}={text}").into();
         let argument = Argument { shown: shown.clone(), keys: "--set ".len(), length: path.len() };
         if text.trim().is_empty() {
-            let hint = format!("--set {path}=.., or --set {path}=~ to take it away");
+            let hint = format!("--set {path}=.., or --set '{path}=~' to take it away");
             report.fault(argument.place(), format!("`{path}` has no value"), hint);
             continue;
         }

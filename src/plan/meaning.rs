@@ -101,7 +101,7 @@ fn small<'s>(scene: &'s Scene, plan: &'s Plan) -> impl Iterator<Item = View> + '
     order.sort_by_key(|index| (index + 1).reverse_bits());
     order
         .into_iter()
-        .map(move |index| scene.observer.view(plan.exposures[index].tau, size.width, size.height))
+        .flat_map(move |index| scene.observer.views(plan.exposures[index].tau, size.width, size.height))
 }
 
 /// The sight rays of a small picture, and those to bodies that may lie between them.

@@ -8,7 +8,7 @@ mod scales;
 
 use crate::error::Error;
 use crate::exposure::{Bands, Sampling, Uncertainty, expose_settled_until, expose_spectral, expose_until};
-use crate::film::{Brightness, Development, Negative};
+use crate::film::{self, Brightness, Development, Negative};
 use crate::observer::View;
 use crate::output::{self, FilmKind, Making};
 use crate::plan::{Exposure, Picture, Plan, White};
@@ -52,6 +52,8 @@ struct Exposed {
     settling: Option<Settling>,
     // Its spectrum, where that is asked for.
     bands: Option<Bands>,
+    // What either eye sees, where they share one picture.
+    eyes: Option<Box<[Negative; 2]>>,
 }
 
 /// A developed picture on its way to the files.
@@ -208,7 +210,9 @@ fn exposed(
         },
         samples: one.samples + other.samples,
     });
-    Some(Exposed { negative: stereo::anaglyph(&left.negative, &right.negative), settling, bands: None })
+    let negative = stereo::anaglyph(&left.negative, &right.negative);
+    let eyes = Some(Box::new([left.negative, right.negative]));
+    Some(Exposed { negative, settling, bands: None, eyes })
 }
 
 fn exposed_by(
@@ -221,14 +225,20 @@ fn exposed_by(
     if let Some(tolerance) = plan.tolerance {
         let settled = expose_settled_until(&lit, view, &plan.sampling, development, (tolerance, stop))?;
         let settling = Settling { error: settled.error, samples: settled.samples };
-        return Some(Exposed { negative: settled.negative, settling: Some(settling), bands: None });
+        return Some(Exposed {
+            negative: settled.negative,
+            settling: Some(settling),
+            bands: None,
+            eyes: None,
+        });
     }
     if plan.outputs.spectrum() {
         let (negative, bands) = expose_spectral(scene, view, &plan.sampling);
-        return Some(Exposed { negative, settling: None, bands: Some(bands) }).filter(|_| !stop.is_set());
+        let exposed = Exposed { negative, settling: None, bands: Some(bands), eyes: None };
+        return Some(exposed).filter(|_| !stop.is_set());
     }
     let negative = expose_until(&lit, view, &plan.sampling, stop)?;
-    Some(Exposed { negative, settling: None, bands: None })
+    Some(Exposed { negative, settling: None, bands: None, eyes: None })
 }
 
 fn print(
@@ -236,14 +246,18 @@ fn print(
     plan: &Plan,
     exposure: &Exposure,
     development: &Development,
-    Exposed { negative, settling, bands }: Exposed,
+    Exposed { negative, settling, bands, eyes }: Exposed,
 ) -> Print {
     let view = view(scene, plan, exposure);
     let seen = layers::asks_rays(plan).then(|| layers::seen(scene, plan, &view));
-    let fine = plan.outputs.sixteen.then(|| development.develop_finely(&negative));
+    let shown = |pixel: usize| match eyes.as_deref() {
+        Some(eyes) => stereo::shown(eyes.each_ref().map(|eye| development.shown(eye, pixel))),
+        None => development.shown(&negative, pixel),
+    };
+    let fine = plan.outputs.sixteen.then(|| film::encode_finely(negative.xyz.len(), shown));
     let rgb = match &fine {
         Some(fine) => fine.iter().map(|value| output::eight_of(*value)).collect(),
-        None => development.develop(&negative),
+        None => film::encode(negative.xyz.len(), shown),
     };
     let white = development.white;
     let text = about::of_picture(scene, plan, exposure, white);
@@ -302,8 +316,9 @@ pub fn development_until(scene: &Scene, plan: &Plan, stop: &Stop) -> Option<Deve
     let Some(Metering { small, every, .. }) = metering(plan) else { return Some(developed(plan, None)) };
     let mut pixels = Vec::new();
     for exposure in plan.exposures.iter().step_by(every) {
-        let view = scene.observer.view(exposure.tau, small.width, small.height);
-        pixels.extend(expose_until(&scene.lit(), &view, &small, stop)?.xyz);
+        for view in scene.observer.views(exposure.tau, small.width, small.height) {
+            pixels.extend(expose_until(&scene.lit(), &view, &small, stop)?.xyz);
+        }
     }
     Some(developed(plan, Brightness::of(pixels)))
 }

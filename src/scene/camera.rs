@@ -215,7 +215,8 @@ fn path(filmed: &Filmed, keys: &[f64]) -> Result<Option<Arc<Track>>, (Samples, V
                 (1..parts).map(|i| key + (next - key) * i as f64 / parts as f64).collect();
             // Where values jump, the places just before say so.
             let jumps = |channel: &import::Channel| {
-                channel.interpolation == Interpolation::Step && channel.keys.contains(next)
+                channel.interpolation == Interpolation::Step
+                    && channel.keys.binary_search_by(|key| key.total_cmp(next)).is_ok()
             };
             if filmed.rig.channels().any(jumps) {
                 between.push(next - (next - key) * 1e-6);

@@ -129,11 +129,15 @@ impl Gathered {
         }
         let volume = (bounds.hi - bounds.lo).element_product();
         self.workshop.media[first_medium..].iter_mut().for_each(|medium| medium.volume = volume);
-        let glass = self.surfaces[first_surface as usize..].iter().any(|s| s.medium().is_some());
-        let open = |instance: &&import::Instance| {
-            chosen.contains(instance.node) && !model.asset.meshes[instance.mesh].is_closed()
+        let surfaces = &self.surfaces[first_surface as usize..];
+        let is_glass = |part: &crate::mesh::Part| {
+            surfaces.get(part.material as usize).is_none_or(|surface| surface.medium().is_some())
         };
-        if let Some(instance) = glass.then(|| model.asset.instances.iter().find(open)).flatten() {
+        let open = |instance: &&import::Instance| {
+            let mesh = &model.asset.meshes[instance.mesh];
+            chosen.contains(instance.node) && mesh.parts.iter().any(is_glass) && !mesh.is_closed()
+        };
+        if let Some(instance) = model.asset.instances.iter().find(open) {
             let name = &model.asset.meshes[instance.mesh].name;
             let what =
                 format!("the mesh `{name}` is of glass and is not closed: it has no inside to go through");

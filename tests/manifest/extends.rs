@@ -274,6 +274,18 @@ fn films_are_known_again_by_what_is_said_and_not_by_how_it_is_divided() {
 }
 
 #[test]
+fn files_of_one_name_that_change_places_are_other_inputs_and_folders_that_move_are_not() {
+    let of = |root: &str, (a, b): (&str, &str)| {
+        let mut inputs = terrell::inputs::Inputs::default();
+        inputs.add(&Path::new(root).join("a/p.png"), a.as_bytes());
+        inputs.add(&Path::new(root).join("b/p.png"), b.as_bytes());
+        inputs.of_files()
+    };
+    assert_ne!(of("/x", ("red", "blue")), of("/x", ("blue", "red")));
+    assert_eq!(of("/x", ("red", "blue")), of("/else/where", ("red", "blue")));
+}
+
+#[test]
 fn what_is_extended_may_be_no_text_at_all() {
     let files = Files::of(&[
         ("list.yaml", "- a\n"),

@@ -44,7 +44,8 @@ fn keys_and_items_are_taken_away() {
     assert_eq!(refused("observer.obit", "~"), "there is no `obit` to be taken away; did you mean `orbit`?");
     assert_eq!(refused("output", "~"), "a manifest needs `output`; output: ../out/flyby");
     assert!(
-        refused("observer.up", "").ends_with("--set observer.up=.., or --set observer.up=~ to take it away")
+        refused("observer.up", "")
+            .ends_with("--set observer.up=.., or --set 'observer.up=~' to take it away")
     );
 }
 

@@ -153,7 +153,7 @@ fn show(place: Where, inbox: &Receiver<News>, signal: &Stop) -> Result<(), Error
                 continue;
             }
             (Ok(News::Text(text)), Some(screen)) => screen.say(&text),
-            (Ok(News::Text(text)), None) => eprint!("{text}"),
+            (Ok(News::Text(text)), None) => crate::cli::say(&text),
             (Ok(News::Ended(Ok(()))), Some(screen)) if screen.stays() => {}
             (Ok(News::Ended(ended)), _) => return ended,
             (Ok(News::Picture(..)) | Err(_), _) => {}

@@ -134,7 +134,7 @@ impl Screen for Shown {
 
     fn say(&mut self, text: &str) {
         self.leave();
-        eprint!("{text}");
+        crate::cli::say(text);
     }
 
     fn attend(&mut self) -> bool {

@@ -65,7 +65,7 @@ impl Screen for Shown {
     }
 
     fn say(&mut self, text: &str) {
-        eprint!("{text}");
+        crate::cli::say(text);
     }
 
     fn attend(&mut self) -> bool {
