@@ -163,7 +163,7 @@ fn first_hits_tell_the_body_of_each_pixel() {
     }
 }
 
-/// Hue in OKLab, degrees, by the matrices from XYZ as they were published (Ottosson 2020; the code has others, from sRGB).
+/// Hue in `OKLab`, degrees, by the matrices from XYZ as they were published (Ottosson 2020; the code has others, from sRGB).
 fn hue(xyz: DVec3) -> f64 {
     let cones = DMat3::from_cols_array(&[
         0.818_933_010_1,
