@@ -121,4 +121,13 @@ impl Brightness {
             brightest: quantile(&|xyz| (*RGB_FROM_XYZ * *xyz).max_element(), 999),
         })
     }
+
+    /// The headroom above this white that the brightest need.
+    pub fn headroom(&self, white: f64) -> f64 {
+        libm::log2(self.brightest / white).clamp(LEAST_HEADROOM, MOST_HEADROOM)
+    }
 }
+
+/// Headroom where the film says it: at least so much that highlights end softly, at most what a searchlight at γ = 50 needs.
+const LEAST_HEADROOM: f64 = 1.0;
+const MOST_HEADROOM: f64 = 24.0;

@@ -135,15 +135,13 @@ impl Heard {
     fn until(&mut self, words: &str) {
         let began = Instant::now();
         loop {
-            match self.said.recv_timeout(Duration::from_secs(1)) {
-                Ok(line) => {
-                    self.all += &(line.clone() + "\n");
-                    if line.contains(words) {
-                        return;
-                    }
+            if let Ok(line) = self.said.recv_timeout(Duration::from_secs(1)) {
+                self.all += &(line.clone() + "\n");
+                if line.contains(words) {
+                    return;
                 }
-                Err(_) => assert!(began.elapsed() < Duration::from_mins(1), "no `{words}` in\n{}", self.all),
             }
+            assert!(began.elapsed() < Duration::from_mins(2), "no `{words}` in\n{}", self.all);
         }
     }
 
@@ -153,7 +151,14 @@ impl Heard {
     }
 
     fn end(mut self) -> (ExitStatus, String) {
-        let status = self.child.wait().unwrap();
+        let began = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                break status;
+            }
+            assert!(began.elapsed() < Duration::from_mins(2), "it does not end\n{}", self.all);
+            std::thread::sleep(Duration::from_millis(5));
+        };
         let mut all = std::mem::take(&mut self.all);
         all.extend(self.said.iter().map(|line| line + "\n"));
         (status, all)

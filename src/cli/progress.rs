@@ -5,6 +5,7 @@ use crate::plan::Plan;
 use crate::render::{Settling, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Between two plain lines.
@@ -18,6 +19,7 @@ pub(super) struct Progress {
     done: usize,
     kept: usize,
     pictures: usize,
+    folder: PathBuf,
     // The least settled so far.
     worst: Option<Settling>,
     tolerance: f64,
@@ -51,6 +53,7 @@ impl Progress {
             done: 0,
             kept: 0,
             pictures,
+            folder: plan.folder.clone(),
             worst: None,
             tolerance,
         }
@@ -93,7 +96,7 @@ impl Progress {
             let made = self.pictures - self.kept;
             let what = if made == 1 { "picture" } else { "pictures" };
             let more = if self.kept > 0 { "more " } else { "" };
-            let folder = path.parent().unwrap_or(path).display();
+            let folder = self.folder.display();
             self.say(&format!("{made} {more}{what} in {folder}, {seconds:.1} s"));
             if let Some(Settling { error, samples }) = self.worst {
                 let reached = if error.p99 > self.tolerance {

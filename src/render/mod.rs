@@ -352,10 +352,5 @@ pub(crate) fn developed(plan: &Plan, brightness: Option<Brightness>) -> Developm
         White::Fixed(white) => white,
         White::Auto { gain } => brightness.white / gain,
     };
-    let measured = libm::log2(brightness.brightest / white).clamp(LEAST_HEADROOM, MOST_HEADROOM);
-    Development::new(white, plan.headroom.unwrap_or(measured))
+    Development::new(white, plan.headroom.unwrap_or_else(|| brightness.headroom(white)))
 }
-
-/// Headroom where the film says it: at least so much that highlights end softly, at most what a searchlight at γ = 50 needs.
-const LEAST_HEADROOM: f64 = 1.0;
-const MOST_HEADROOM: f64 = 24.0;

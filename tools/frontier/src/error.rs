@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use terrell::color::{Lab, ciede2000};
-use terrell::film::{Development, meter};
+use terrell::film::{Brightness, Development};
 
 /// The differences of a picture from the reference.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,8 +22,9 @@ pub struct Judge {
 
 impl Judge {
     pub fn new(reference: Vec<DVec3>) -> Self {
-        let white = meter(reference.iter().map(|xyz| xyz.y)).unwrap_or(1.0);
-        let development = Development { white };
+        let brightness = Brightness::of(reference.iter().map(|xyz| xyz.as_vec3().to_array()))
+            .unwrap_or(Brightness { white: 1.0, brightest: 1.0 });
+        let development = Development::new(brightness.white, brightness.headroom(brightness.white));
         let lab = reference.iter().map(|xyz| lab(development, *xyz)).collect();
         Self { reference, development, lab }
     }
