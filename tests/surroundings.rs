@@ -81,6 +81,47 @@ fn stars_found_by_cells_are_those_found_one_by_one() {
     }
 }
 
+/// Also: narrower than a pixel it is spread like a point, and gives the light of its solid angle, 2π (1 - cos r).
+#[test]
+fn star_that_is_a_disc_is_a_black_body_up_to_its_edge() {
+    let mut dice = Dice(4);
+    for radius in [1e-5, 0.01, 0.3, 1.5_f64] {
+        let star = Star::of_magnitude(dice.direction(), 5800.0, 3.0);
+        let disc = Stars::new([star]).as_discs(radius, 2.5);
+        let seen = |part: f64| {
+            let versine = 2.0 * libm::sin(0.5 * part * radius).powi(2);
+            disc.radiance(beside(star.direction, versine, &mut Dice(5)), 0.1 * radius, &[450.0, 700.0])
+        };
+        for part in [0.0, 0.5, 0.9999] {
+            for (seen, nm) in seen(part).into_iter().zip([450.0, 700.0]) {
+                close(seen, 2.5 * planck(nm, 5800.0), 1e-12);
+            }
+        }
+        assert_eq!(seen(1.0001), [0.0; 2]);
+        let solid_angle = 2.0 * TAU * libm::sin(0.5 * radius).powi(2);
+        let luminance = 2.5 * xyz_of(|nm| planck(nm, 5800.0)).y;
+        close(illuminance(&disc, &star, radius), luminance * solid_angle, 2e-4);
+    }
+}
+
+/// Through the whole list for every look.
+#[test]
+fn discs_found_by_cells_are_those_found_one_by_one() {
+    let kinds = Kinds::Alike { kelvin: 5000.0, magnitude: 0.0 };
+    let all: Vec<Star> = seeded(6, 300, kinds).collect();
+    for radius in [0.01_f64, 0.05, 0.4] {
+        let (discs, mut dice, mut on) = (Stars::new(all.iter().copied()).as_discs(radius, 1.0), Dice(6), 0);
+        for _ in 0..2000 {
+            let d = dice.direction();
+            let expected =
+                all.iter().any(|star| (star.direction - d).length() < 2.0 * libm::sin(0.5 * radius));
+            assert_eq!(discs.radiance(d, 0.0, &[550.0])[0] > 0.0, expected, "{d}");
+            on += u32::from(expected);
+        }
+        assert!(on > 5, "{on}");
+    }
+}
+
 #[test]
 fn star_is_a_black_body_at_every_wavelength() {
     let star = Star::of_magnitude(v(0.0, 0.0, -2.0), 5000.0, 1.0);

@@ -300,6 +300,8 @@ scalars! {
     ViewAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x < std::f64::consts::PI, "50 deg (between 0 and 180), or lens: fisheye";
     /// Radians, above 0 and up to 360 degrees.
     ConeAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x <= std::f64::consts::TAU, "40 deg (up to 360)";
+    /// Radians, above 0 and below 90 degrees.
+    DiscAngle: "an angle", [Angle], "deg", |x| x > 0.0 && x < std::f64::consts::FRAC_PI_2, "0.6 deg (below 90)";
     /// Kelvin, > 0.
     Temperature: "a temperature", [Temperature], "K", |x| x > 0.0 && x <= 1e12, "5600 K (above 0, up to 1e12)";
     /// Nanometres, > 0.

@@ -5,7 +5,7 @@ use super::light::{Glow, GlowKind};
 use super::motion::{Motion, Rotation};
 use super::node::{Content, Node};
 use super::plain::{Count, NotNegative, Placed, Real, ThereFile};
-use super::quantity::{Quantity, Temperature};
+use super::quantity::{DiscAngle, Quantity, Temperature};
 use super::reader::{Read, Reader};
 use super::record::{Kind, List, Shape, record};
 use super::units::Dimension;
@@ -131,6 +131,9 @@ record! {
         temperature: Option<Spanned<f64>> = Placed<Temperature>, optional, "5800 K";
         /// The magnitude of all of them; as many of each as there are among the stars unless said.
         magnitude: Option<Spanned<f64>> = Placed<Magnitude>, optional, "2";
+        /// The angular radius of all of them, who are then discs as bright as black bodies of their temperatures; points unless
+        /// said.
+        radius: Option<Spanned<f64>> = Placed<DiscAngle>, optional, "0.6 deg";
         /// A CSV file of stars, instead of all of these.
         catalogue: Option<Spanned<PathBuf>> = Placed<ThereFile>, optional, "stars.csv";
         /// Multiplies the brightness of all: 1 unless said.
@@ -147,6 +150,8 @@ pub struct Stars {
     pub origin: StarOrigin,
     /// Multiplies their brightness.
     pub brightness: f64,
+    /// Their angular radius, radians, if they are discs as bright as black bodies.
+    pub radius: Option<f64>,
 }
 
 /// Where stars come from.
@@ -183,13 +188,14 @@ impl Kind for StarsKind {
             Some(catalogue) => StarOrigin::Catalogue(only(catalogue, node, reader)?),
             None => seeded(&keys, reader)?,
         };
-        Ok(Stars { place: keys.place, origin, brightness: keys.brightness })
+        let radius = keys.radius.map(|radius| radius.value);
+        Ok(Stars { place: keys.place, origin, brightness: keys.brightness, radius })
     }
 }
 
 /// A catalogue beside which nothing is said of made-up stars.
 fn only(catalogue: &Spanned<PathBuf>, node: &Node, reader: &mut Reader<'_>) -> Read<Spanned<PathBuf>> {
-    let others = ["seed", "count", "faintest", "temperature", "magnitude"];
+    let others = ["seed", "count", "faintest", "temperature", "magnitude", "radius"];
     for key in others {
         if let Some(value) = node.get(key) {
             let what = format!("the stars of a catalogue have no `{key}`: it says what each of them is like");
@@ -207,6 +213,14 @@ fn seeded(keys: &StarsKeys, reader: &mut Reader<'_>) -> Read<StarOrigin> {
     if let (Some(faintest), Some(_)) = (&keys.faintest, &keys.magnitude) {
         let what = "stars that are all of one `magnitude` have no `faintest`";
         return Err(reader.fault(&faintest.place, what, "remove `faintest`, or `magnitude`"));
+    }
+    if let (Some(magnitude), Some(_)) = (keys.faintest.as_ref().or(keys.magnitude.as_ref()), &keys.radius) {
+        let what = "stars that are discs are as bright as their temperatures make them";
+        return Err(reader.fault(
+            &magnitude.place,
+            what,
+            "remove it, or `radius`; `brightness` makes all of them brighter",
+        ));
     }
     Ok(StarOrigin::Seeded {
         seed: keys.seed.as_ref().map_or(1, |seed| seed.value),

@@ -25,7 +25,11 @@ pub(super) fn sky(written: &manifest::Surroundings, workshop: &mut Workshop, rep
             illuminance: star.illuminance * stars.brightness,
             ..star
         };
-        parts.push(Part::Stars(Stars::new(origin(&stars.origin, report).into_iter().map(turned))));
+        let points = Stars::new(origin(&stars.origin, report).into_iter().map(turned));
+        parts.push(Part::Stars(match stars.radius {
+            Some(radius) => points.as_discs(radius, stars.brightness),
+            None => points,
+        }));
     }
     Sky { rest_from_lab: Boost::to_moving(written.velocity), sky: Surroundings { parts } }
 }

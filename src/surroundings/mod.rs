@@ -31,7 +31,7 @@ pub enum Part {
     Uniform(Source),
     /// A picture all around.
     Panorama(Panorama),
-    /// Points.
+    /// Points, or small discs.
     Stars(Stars),
 }
 

@@ -1,4 +1,4 @@
-//! Stars: points that shine as black bodies.
+//! Stars: points, or discs, that shine as black bodies.
 
 use super::bands::Bands;
 use super::seeded::{Kinds, seeded};
@@ -49,6 +49,18 @@ impl Star {
 pub struct Stars {
     bands: Bands,
     points: Vec<Point>,
+    disc: Option<Disc>,
+}
+
+/// What stars are like that are no points.
+#[derive(Debug, Clone, Copy)]
+struct Disc {
+    /// Angular radius, radians.
+    radius: f64,
+    /// The square of the chord that belongs to it.
+    chord2: f64,
+    /// Steradians.
+    solid_angle: f64,
 }
 
 /// A star as it is needed when it is looked at.
@@ -67,7 +79,19 @@ impl Stars {
         let points: Vec<Point> = stars.into_iter().take(MOST_STARS).filter_map(point).collect();
         let directions: Vec<DVec3> = points.iter().map(|point| point.direction).collect();
         let (bands, order) = Bands::new(&directions);
-        Self { bands, points: order.iter().map(|i| points[*i as usize]).collect() }
+        Self { bands, points: order.iter().map(|i| points[*i as usize]).collect(), disc: None }
+    }
+
+    /// The same stars as discs of an angular radius (radians, up to a right angle), `brightness` times as bright as black
+    /// bodies of their temperatures, whatever their magnitudes were.
+    #[must_use]
+    pub fn as_discs(mut self, radius: f64, brightness: f64) -> Self {
+        let half_chord = libm::sin(0.5 * radius);
+        let chord2 = 4.0 * half_chord * half_chord;
+        let solid_angle = PI * chord2;
+        self.points.iter_mut().for_each(|point| point.factor = brightness * solid_angle);
+        self.disc = Some(Disc { radius, chord2, solid_angle });
+        self
     }
 
     /// Stars strewn evenly over the sky: see [`seeded`].
@@ -94,7 +118,12 @@ impl Stars {
     ///
     /// This is von Mises and Fisher's distribution, cut at 4σ: a Gaussian where it is narrow, and for any width a
     /// kernel whose integral over the sphere is 1. So a pixel of any size gets the whole of a star's light, once.
+    /// A disc has an edge instead, unless it is narrower than a pixel.
     pub fn radiance<const N: usize>(&self, d: DVec3, sigma: f64, nm: &[f64; N]) -> [f64; N] {
+        // σ is half a pixel.
+        if let Some(disc) = self.disc.filter(|disc| disc.radius > 2.0 * sigma) {
+            return self.on_disc(&disc, d, nm);
+        }
         let kernel = Kernel::new(sigma);
         let mut sum = [0.0; N];
         self.bands.near(d, kernel.radius, |stretch| {
@@ -105,6 +134,20 @@ impl Stars {
                 }
             }
         });
+        sum
+    }
+
+    /// The radiance of the disc on which a direction lies; of several, of any one of them.
+    fn on_disc<const N: usize>(&self, disc: &Disc, d: DVec3, nm: &[f64; N]) -> [f64; N] {
+        let mut star: Option<&Point> = None;
+        self.bands.near(d, disc.radius, |stretch| {
+            let on_it = |star: &&Point| (d - star.direction).length_squared() < disc.chord2;
+            star = star.or_else(|| self.points[stretch].iter().find(on_it));
+        });
+        let mut sum = [0.0; N];
+        if let Some(star) = star {
+            star.add_to(&mut sum, 1.0 / disc.solid_angle, nm);
+        }
         sum
     }
 }

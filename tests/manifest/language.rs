@@ -234,7 +234,9 @@ fn stars_are_made_up_or_those_of_a_catalogue() {
     let plain = complete("surroundings: { stars: { count: 3 } }");
     let stars = plain.surroundings[0].stars.as_ref().unwrap();
     assert!(matches!(stars.origin, StarOrigin::Seeded { seed: 1, faintest: 6.5, .. }));
-    assert_eq!(stars.brightness, 1.0);
+    assert_eq!((stars.brightness, stars.radius), (1.0, None));
+    let discs = complete("surroundings: { stars: { count: 3, temperature: 5800 K, radius: 0.5 deg } }");
+    assert_eq!(discs.surroundings[0].stars.as_ref().unwrap().radius, Some(0.5_f64.to_radians()));
 }
 
 #[test]
