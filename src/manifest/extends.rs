@@ -152,6 +152,9 @@ impl Merge<'_> {
         match (&under.content, &over.content) {
             (Content::Map(below), Content::Map(above)) => {
                 let mut entries = below.clone();
+                if key == "exposures" {
+                    make_way_for_times(&mut entries, above);
+                }
                 above.iter().for_each(|entry| self.entry(&mut entries, above, entry, shape));
                 Node::new(over.place.clone(), Content::Map(entries)).into()
             }
@@ -205,6 +208,18 @@ impl Merge<'_> {
             Ok(at) => items[at] = Some(self.node("", &below[at], &over.value, of)),
             Err((what, hint)) => self.report.fault(over.key_place.clone(), format!("`{key}`: {what}"), hint),
         }
+    }
+}
+
+/// Exposures are `at` a time, or `count` of them `from` one `to` another: what is said above takes the place of the other.
+fn make_way_for_times(below: &mut Vec<Entry>, above: &[Entry]) {
+    let says = |entries: &[Entry], keys: &[&str]| {
+        entries.iter().any(|entry| keys.contains(&entry.key.as_str()) && !entry.value.is_removal())
+    };
+    if says(above, &["at"]) && says(below, &["from", "to"]) {
+        below.retain(|entry| !["from", "to", "count"].contains(&entry.key.as_str()));
+    } else if says(above, &["from", "to"]) {
+        below.retain(|entry| entry.key != "at");
     }
 }
 

@@ -106,8 +106,9 @@ record! {
     pub Manifest, "a manifest" {
         @include shorthand: Shorthand, "Observer and exposures in short; what it stands for is in those.";
         /// Manifests that this one begins from, a path or a list of them: what is said here (and further on in the list) takes the
-        /// place of what they say. Maps are merged key by key, `key: ~` takes a key away, and `bodies` and `lights` may be
-        /// maps that change items by name or number (`+` adds some). Paths in them are relative to their own folders.
+        /// place of what they say. Maps are merged key by key, `key: ~` takes a key away (as exposures `at` a time do those `from`
+        /// one `to` another), and `bodies` and `lights` may be maps that change items by name or number (`+` adds some). Paths in
+        /// them are relative to their own folders.
         extends: Vec<PathBuf> = Extends, default(Vec::new()), "studio.yaml";
         /// The speed of light in metres per second: what the seconds of this manifest are.
         light_speed: f64 = LightSpeed, default(LIGHT_SPEED), "1 m/s";

@@ -144,6 +144,30 @@ fn a_shorthand_takes_the_place_of_the_observers_way_and_the_exposures_below_it()
 }
 
 #[test]
+fn one_time_takes_the_place_of_many_and_many_that_of_one() {
+    let still = "extends: base.yaml\nexposures: { at: 2 s }\noutput: out/still\n";
+    let film = "extends: still.yaml\nexposures: { from: 1 s, to: 3 s, count: 5 }\noutput: out/film\n";
+    let ring = "extends: base.yaml\nobserver: { ring: { radius: 4 m } }\nexposures: { at: 0 s, count: 7 }\noutput: out/ring\n";
+    let later = "extends: ring.yaml\nexposures: { at: 2 s }\noutput: out/later\n";
+    let files = Files::of(&[
+        ("base.yaml", BASE),
+        ("still.yaml", still),
+        ("film.yaml", film),
+        ("ring.yaml", ring),
+        ("later.yaml", later),
+    ]);
+    let exposures = |name: &str| {
+        let exposures = files.sound(name).0.exposures;
+        (exposures.from, exposures.to, exposures.count)
+    };
+    assert_eq!(exposures("still.yaml"), (2.0, 2.0, 1));
+    assert_eq!(exposures("film.yaml"), (1.0, 3.0, 5));
+    // A ring of observers takes its pictures at one time.
+    assert_eq!(exposures("ring.yaml"), (0.0, 0.0, 7));
+    assert_eq!(exposures("later.yaml"), (2.0, 2.0, 7));
+}
+
+#[test]
 fn later_manifests_of_a_list_stand_above_earlier_ones() {
     let files = Files::of(&[
         ("a.yaml", "light_speed: 1 m/s\npicture: { samples: 1, depth: 2 }\n"),
