@@ -23,6 +23,7 @@ mod fizeau;
 mod formats;
 mod fresnel;
 mod furnace;
+mod gallery;
 mod glass;
 mod import;
 mod index;
