@@ -3,7 +3,6 @@
 use super::{Exhibit, Pinhole, aberrated};
 use crate::support::v;
 use glam::DVec3;
-use terrell::spectrum::Wavelengths;
 
 /// Around each corner of the squares that is seen: the four squares that meet there are seen around the direction of the closed
 /// form, a thousandth of a millimetre from it on the floor.
@@ -13,11 +12,10 @@ fn corners_of_the_squares_are_seen_where_aberration_puts_them() {
     let exhibit = Exhibit::of("gate_1");
     let (view, pinhole) = (exhibit.view(0, WIDTH), Pinhole::toward(DVec3::Z, WIDTH));
     let (eye, beta) = (v(0.0, 2.0, -9.50001), v(0.0, 0.0, 0.8));
-    let wavelengths = Wavelengths::<16>::new();
     let brightness = |place: DVec3| {
         let pixel = pinhole.pixel(aberrated((place - eye).normalize(), beta))?;
         let ray = view.ray(pixel);
-        (exhibit.body(&ray) == Some(0)).then(|| wavelengths.xyz(&exhibit.seen(&ray).radiance).y)
+        (exhibit.body(&ray) == Some(0)).then(|| exhibit.luminance(&ray))
     };
     let (mut corners, mut beside) = (0, 0);
     for (x, z) in (-9..=9).flat_map(|x| (-9..=9).map(move |z| (f64::from(x), f64::from(z)))) {

@@ -43,6 +43,8 @@ struct Exhibit {
     manifest: Manifest,
     scene: Scene,
     plan: Plan,
+    // Wavelengths take longer to choose than to look at.
+    wavelengths: Wavelengths<16>,
 }
 
 impl Exhibit {
@@ -58,12 +60,17 @@ impl Exhibit {
     }
 
     fn seen(&self, ray: &SightRay) -> Light<16> {
-        self.scene.lit().seen(ray, &Wavelengths::new())
+        self.scene.lit().seen(ray, &self.wavelengths)
+    }
+
+    /// Luminance without spectral lines, cd/m².
+    fn luminance(&self, ray: &SightRay) -> f64 {
+        self.wavelengths.xyz(&self.seen(ray).radiance).y
     }
 
     /// Whether light of lamps with spectral lines comes along a ray: nothing else here has lines.
     fn shows_lamplight(&self, ray: &SightRay) -> bool {
-        self.scene.lit().seen(ray, &Wavelengths::<8>::new()).lines.y > 0.0
+        self.seen(ray).lines.y > 0.0
     }
 
     /// The number of the body that a ray meets first.
@@ -79,7 +86,7 @@ fn read(path: &Path) -> (Option<Exhibit>, Report) {
     let exhibit = manifest.zip(scene).map(|(manifest, scene)| {
         let plan = Plan::of(&manifest, &scene, path, &mut report);
         meaning::check(&manifest, &scene, &plan, &mut report);
-        Exhibit { manifest, scene, plan }
+        Exhibit { manifest, scene, plan, wavelengths: Wavelengths::new() }
     });
     (exhibit, report)
 }

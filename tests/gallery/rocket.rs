@@ -5,7 +5,7 @@ use crate::support::{angle, close, v};
 use glam::DVec3;
 use terrell::manifest::StarOrigin;
 use terrell::scene::WorldBuilder;
-use terrell::spectrum::{Wavelengths, planck};
+use terrell::spectrum::planck;
 use terrell::surroundings::{Kinds, seeded};
 
 /// Where the stars are at rest. (Star number i depends on seed and number alone.)
@@ -31,7 +31,7 @@ fn stars_crowd_ahead_after_twenty_seconds() {
     let (stars, tetrad) =
         (stars(&exhibit), exhibit.scene.observer.worldline.at(exhibit.plan.exposures[0].tau));
     let beta = DVec3::Z * libm::tanh(2.0);
-    let nm = Wavelengths::<16>::new().nm;
+    let nm = exhibit.wavelengths.nm;
     let radiance = |n: DVec3| exhibit.seen(&tetrad.sight_ray(aberrated(n, beta))).radiance;
     let mut seen = Vec::new();
     for star in &stars {

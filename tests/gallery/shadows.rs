@@ -3,7 +3,6 @@
 use super::{Exhibit, NS, Pinhole, a_cube_is_between, between};
 use crate::support::{edge, v};
 use glam::{DVec2, DVec3};
-use terrell::spectrum::Wavelengths;
 
 /// When the lamp's light left that arrives on the floor at x at the time t: the earlier root of `(t - tₑ)² = |x - p(tₑ)|²` with
 /// `p = (0, 3, -β tₑ)`:
@@ -81,7 +80,7 @@ fn from_cube((t, x): (f64, DVec3)) -> DVec3 {
 #[test]
 fn shadow_of_the_passing_cube_is_of_where_it_was() {
     let exhibit = Exhibit::of("shadow");
-    let (eye, lamp, wavelengths) = (v(2.0, 3.0, 0.0), v(5.0, 3.0, 0.0), Wavelengths::<16>::new());
+    let (eye, lamp) = (v(2.0, 3.0, 0.0), v(5.0, 3.0, 0.0));
     let stopped =
         |from: (f64, DVec3), to: (f64, DVec3)| between(DVec3::ZERO, 1.0, from_cube(from), from_cube(to));
     let (mut dark, mut naive) = (0, 0);
@@ -98,8 +97,7 @@ fn shadow_of_the_passing_cube_is_of_where_it_was() {
                 continue;
             }
             let expected = !stopped((t - (place - lamp).length(), lamp), (t, place));
-            let light = exhibit.seen(&tetrad.sight_ray((place - eye).normalize()));
-            let lit = wavelengths.xyz(&light.radiance).y > 1.1;
+            let lit = exhibit.luminance(&tetrad.sight_ray((place - eye).normalize())) > 1.1;
             assert_eq!(lit, expected, "{exposure}: {place}");
             dark += u32::from(!lit);
             naive += u32::from(expected == stopped((arrives, lamp), (arrives, place)));

@@ -4,7 +4,7 @@ use super::{Exhibit, aberrated};
 use crate::support::{close, edge, near, v};
 use glam::DVec3;
 use std::f64::consts::TAU;
-use terrell::spectrum::{Wavelengths, planck};
+use terrell::spectrum::planck;
 
 /// Metres.
 const RADIUS: f64 = 6.955e8;
@@ -89,7 +89,7 @@ fn middle_of_the_sun_is_black_at_its_temperature_times_the_doppler_factor() {
         let n = (place - eye).normalize();
         let ray = exhibit.scene.observer.worldline.at(tau).sight_ray(aberrated(n, DVec3::Z * BETA));
         let kelvin = 5778.0 * gamma * (1.0 + BETA * n.z);
-        for (nm, got) in Wavelengths::<16>::new().nm.iter().zip(exhibit.seen(&ray).radiance) {
+        for (nm, got) in exhibit.wavelengths.nm.iter().zip(exhibit.seen(&ray).radiance) {
             close(got, planck(*nm, kelvin), 1e-9);
         }
         most = (most.0.min(kelvin), most.1.max(kelvin));
