@@ -299,6 +299,73 @@ fn faults_of_flags_name_the_flags() {
 }
 
 #[test]
+fn scale_makes_what_the_size_would() {
+    // The film that `--size` began is the one that `--scale` goes on with.
+    let few = ["manifests/flyby.yaml", "--samples", "1", "--no-video", "--set", "exposures.count=2"];
+    let (folder, output) = rendered(&[&few[..], &["--size", "32x18"]].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    let out = folder.path().to_str().unwrap();
+    let again = terrell(&[&["render"], &few[..], &["--scale", "0.025", "--out", out]].concat());
+    assert!(again.status.success() && said(&again).contains("2 of 2 pictures"), "{}", said(&again));
+    // Rounded, at least 1; halves for two eyes stay halves, and a panorama twice as wide as high.
+    let eyes = "observer={ stereo: { apart: 6 cm } }";
+    let panorama = "observer={ lens: panorama }";
+    for (size, scale, observer, sides) in [
+        ("33 9", "0.5", "observer.at=0 0 5 m", (17, 5)),
+        ("40 3", "0.1", "observer.at=0 0 5 m", (4, 1)),
+        ("12 9", "2", "observer.at=0 0 5 m", (24, 18)),
+        ("42 20", "0.5", eyes, (22, 10)),
+        ("42 21", "0.5", panorama, (22, 11)),
+    ] {
+        let size = format!("picture.size={size}");
+        let arguments =
+            ["manifests/flyby.yaml", "--exposure", "0", "--set", &size, "--set", observer, "--scale", scale];
+        let (folder, output) = rendered(&arguments);
+        assert!(output.status.success(), "{}", said(&output));
+        let picture = image::open(folder.path().join("0000.png")).unwrap();
+        assert_eq!((picture.width(), picture.height()), sides, "{arguments:?}");
+    }
+    for wrong in ["0", "-1", "nan", "inf", "a quarter", "1e9"] {
+        let (_, output) = rendered(&["manifests/flyby.yaml", "--scale", wrong]);
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        assert!(said(&output).contains("help: --scale "), "{wrong}: {}", said(&output));
+    }
+    let both = terrell(&["render", "manifests/flyby.yaml", "--scale", "0.5", "--size", "32x18"]);
+    assert!(said(&both).contains("cannot be used with"), "{}", said(&both));
+}
+
+#[test]
+fn of_several_manifests_all_are_checked_before_the_first_is_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let lit = "ambient: { luminance: 20 cd/m2 }\nassets: { a: { sphere: { radius: 1 m } } }\nbodies: [{ asset: a }]\n\
+               picture: { size: 16 16 }\nobserver: { at: 0 0 5 m }\n";
+    let one = write("one.yaml", &format!("{lit}output: one\n"));
+    let two = write("two.yaml", &format!("{lit}output: two\n"));
+    let faulty = write("faulty.yaml", &format!("{lit}output: three\nliights: []\n"));
+    let fast = write("fast.yaml", &format!("{lit}output: four\nexposures: {{ at: 0 s, counnt: 1 }}\n"));
+    let output = terrell(&["render", &one, &faulty, &two, &fast]);
+    assert_eq!(output.status.code(), Some(2));
+    for words in ["faulty.yaml:7:1", "`liights`", "fast.yaml:7:23", "`counnt`"] {
+        assert!(said(&output).contains(words), "{words}: {}", said(&output));
+    }
+    assert!(!folder.path().join("one").exists());
+    // A fault of the command is told once.
+    let output = terrell(&["render", &one, &two, "--exposure", "1"]);
+    assert_eq!(said(&output).matches("there is no exposure 1").count(), 1, "{}", said(&output));
+    // Pictures of another film stay, and the others are rendered.
+    assert!(terrell(&["render", &one]).status.success());
+    let output = terrell(&["render", &one, &two, "--samples", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("--restart") && folder.path().join("two/0000.png").exists());
+    assert!(!folder.path().join("three").exists());
+}
+
+#[test]
 fn new_writes_a_manifest_that_is_sound_and_never_over_another() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("die.yaml");

@@ -41,7 +41,7 @@ const WIDEST: u32 = 320;
 
 pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
-    changes.extend(super::size_change(args.size.as_deref())?);
+    changes.extend(super::sized::size_change(args.size.as_deref())?);
     let (_, scene, mut plan) = prepare(&args.manifest, &changes, false)?;
     let number = args.exposure.unwrap_or(plan.exposures.len() / 2);
     let Some(exposure) = plan.exposures.get(number).copied() else {
