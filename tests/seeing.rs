@@ -253,6 +253,9 @@ fn preview_without_window_and_terminal_says_so_and_writes_nothing() {
     for (arguments, words) in [
         (&["--preview"][..], "a preview cannot be shown: "),
         (&["--preview=terminal"], "a preview cannot be shown: the output is no terminal"),
+        // What to type shows the same exposure.
+        (&["--preview=terminal", "--exposure", "3"], "--exposure 3 --scale 0.25 --out FOLDER"),
+        (&["--preview=terminal", "--from", "4", "--to", "8"], "--exposure 6 --scale 0.25 --out FOLDER"),
     ] {
         let (code, said) = place.render(arguments);
         assert_eq!(code, Some(2), "{said}");
