@@ -53,11 +53,13 @@ impl Kind for FieldOfView {
     }
 }
 
-/// Which lens an observer has: it decides what angles there may be.
-pub(super) fn of(observer: &Node) -> Lens {
-    match observer.get("lens").and_then(|lens| lens.text()) {
-        Some("fisheye") => Lens::Fisheye,
-        Some("panorama") => Lens::Panorama,
+/// Which lens an observer has: it decides what angles there may be. Of a manifest of which a part is missing, that of the
+/// widest angles unless it is said.
+pub(super) fn of(observer: &Node, partial: bool) -> Lens {
+    match observer.get("lens").map(|lens| lens.text()) {
+        Some(Some("fisheye")) => Lens::Fisheye,
+        Some(Some("panorama")) => Lens::Panorama,
+        None if partial => Lens::Fisheye,
         _ => Lens::Pinhole,
     }
 }

@@ -84,7 +84,7 @@ use motion::LightSpeed;
 use node::Source;
 use observer::ObserverKind;
 use output::OutputKind;
-use reader::{Read, Reader};
+use reader::{Read, Reader, Reported};
 use record::{Kind, List, record};
 use spectrum::Spectra;
 use std::collections::{BTreeMap, BTreeSet};
@@ -210,11 +210,12 @@ fn parse_draft(
     let mut found = Report::default();
     let mut files = vec![path.to_owned()];
     let root = yaml::parse(&Source::file(path, text), text, &mut found)
-        .and_then(|root| extends::resolve(root, path, &mut files, &mut found));
+        .map(|root| extends::resolve(root, path, &mut files, &mut found));
     report.inputs.bases.extend(files.iter().skip(1).cloned());
-    let draft = root.and_then(|root| overrides::apply(root, overrides, &mut found)).and_then(|root| {
+    let draft = root.and_then(|(root, partial)| {
+        let root = overrides::apply(root, overrides, partial, &mut found)?;
         report.inputs.manifest = Some(canonical::digest(&root));
-        draft(path, &root, &mut found)
+        draft(path, &root, partial, &mut found)
     });
     let sound = found.faults.is_empty();
     found.faults.sort_by_key(|fault| extends::order(&files, &fault.place));
@@ -228,7 +229,7 @@ fn parse_draft(
     })
 }
 
-fn draft(path: &Path, root: &node::Node, report: &mut Report) -> Option<Draft> {
+fn draft(path: &Path, root: &node::Node, partial: bool, report: &mut Report) -> Option<Draft> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut reader = Reader::new(folder, report);
     if let Ok(manifest) = read(root, &mut reader) {
@@ -237,6 +238,7 @@ fn draft(path: &Path, root: &node::Node, report: &mut Report) -> Option<Draft> {
     }
     let Reader { rest, light_speed, .. } = reader;
     let mut manifest = yaml::parse(&Source::file(path, USUAL), USUAL, report)
+    reader.partial = partial;
         .and_then(|usual| <Manifest as Kind>::read(&usual, &mut Reader::new(folder, report)).ok())?;
     (manifest.assets, manifest.bodies, manifest.surroundings) = (rest.assets, rest.bodies, rest.surroundings);
     manifest.light_speed = light_speed;
@@ -249,7 +251,7 @@ const USUAL: &str = "{ observer: {}, output: out }";
 fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
     let looking = if extends::nobody_looks(root) {
         let what = "a manifest needs `observer`, `turntable` or `flyby`";
-        Err(reader.fault(&root.place, what, "observer: { at: 0 1.2 5 m }"))
+        Err(reader.missing(&root.place, what, "observer: { at: 0 1.2 5 m }"))
     } else {
         Ok(())
     };
@@ -262,6 +264,9 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
         used.insert(&camera.asset.value);
     }
     for (name, asset) in &manifest.assets {
+    if reader.partial {
+        return Err(Reported); // What follows is about the whole.
+    }
         if !used.contains(name) {
             reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }

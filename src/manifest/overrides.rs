@@ -13,7 +13,14 @@ const EXAMPLES: &str = "--set observer.velocity=\"0 0 0.5 c\", --set bodies.monk
 
 /// The tree with each override at its path of keys; maps that are missing on the way are made. Items of lists go by name or
 /// number, `+` adds one; `~` takes away what is at the path.
-pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut Report) -> Option<Rc<Node>> {
+///
+/// `partial`: whether a part of the tree could not be had, so that a path may lead there.
+pub(crate) fn apply(
+    root: Rc<Node>,
+    overrides: &[(String, String)],
+    partial: bool,
+    report: &mut Report,
+) -> Option<Rc<Node>> {
     let known = report.faults.len();
     let mut root = root;
     let shape = super::shape();
@@ -33,7 +40,9 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
         if keys.first().is_some_and(short) {
             shorthand::make_way(Rc::make_mut(&mut root));
         }
-        if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value) {
+        if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value)
+            && !partial
+        {
             report.fault(argument.place(), what, hint);
         }
     }

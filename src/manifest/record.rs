@@ -203,7 +203,7 @@ impl<'n> Entries<'n> {
             None if self.is_meant(key) => Err(Reported),
             None => {
                 let what = format!("{title} needs `{key}`");
-                Err(reader.fault(&self.node.place, what, format!("{key}: {example}")))
+                Err(reader.missing(&self.node.place, what, format!("{key}: {example}")))
             }
         }
     }
@@ -225,7 +225,7 @@ impl<'n> Entries<'n> {
                 let hint = fields
                     .first()
                     .map_or_else(String::new, |field| format!("{}: {}", field.key, field.example));
-                Err(reader.fault(&self.node.place, format!("{title} needs one of {keys}"), hint))
+                Err(reader.missing(&self.node.place, format!("{title} needs one of {keys}"), hint))
             }
             [one] => Ok(Some(one.key)),
             [first, second, ..] => {
