@@ -217,7 +217,7 @@ fn colored() -> bool {
 fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
     let all = compose_into(path, changes, film, &mut report);
-    look(&all, &mut report);
+    look(all.as_ref(), &mut report);
     say(&warnings(&report.warnings));
     report.finish(all)
 }
@@ -245,7 +245,7 @@ fn compose_into(
 }
 
 /// Warns of what will not be seen.
-fn look(all: &Option<(Manifest, Scene, Plan)>, report: &mut Report) {
+fn look(all: Option<&(Manifest, Scene, Plan)>, report: &mut Report) {
     if let Some((manifest, scene, plan)) = all {
         meaning::check(manifest, scene, plan, report);
     }
@@ -342,7 +342,7 @@ fn prepared(
     report: &mut Report,
 ) -> Option<(Scene, Plan)> {
     let ready = composed(path, changes, args, report);
-    look(&ready, report);
+    look(ready.as_ref(), report);
     let (_, scene, mut plan) = ready?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
@@ -370,7 +370,7 @@ fn composed(
     let changes = scaled.as_deref().unwrap_or(changes);
     let ready = compose_into(path, changes, args.exposure.is_none(), report);
     for (key, flag, _) in flags.into_iter().filter(|(.., given)| *given) {
-        name_as_flag(&mut report.faults, key, flag);
+        name_as_flag(report.faults.iter_mut().chain(&mut report.warnings), key, flag);
     }
     ready
 }
@@ -384,18 +384,17 @@ fn render_ready(scene: &Scene, plan: &Plan, args: &RenderArgs, stop: &Stop) -> R
 }
 
 /// Faults of what a flag says, as faults of the flag and not of the key that it stands for.
-fn name_as_flag(faults: &mut [Fault], key: &str, flag: &str) {
+fn name_as_flag<'f>(faults: impl Iterator<Item = &'f mut Fault>, key: &str, flag: &str) {
     let change = format!("--set picture.{key}=");
-    let of_flag = |fault: &&mut Fault| matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change));
-    for fault in faults.iter_mut().filter(of_flag) {
+    for fault in faults {
+        if !matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change)) {
+            continue;
+        }
         fault.place = Place::Command;
         fault.what = format!("{flag}: {}", fault.what);
-        fault.hint = match (fault.hint.strip_prefix(&format!("{key}: ")), flag) {
-            (_, "--scale") => "--scale 1".to_owned(),
-            (Some(size), "--size") => format!("--size {}", size.replace(' ', "x")),
-            (Some(typed), _) => format!("{flag} {typed}"),
-            (None, _) => continue,
-        };
+        if let Some(typed) = fault.hint.strip_prefix(&format!("{key}: ")) {
+            fault.hint = if key == "size" { sized::typed(typed, flag) } else { format!("{flag} {typed}") };
+        }
     }
 }
 

@@ -47,10 +47,21 @@ pub(super) fn scaled(
 
 /// The sides times the scale, rounded. What has two halves keeps them; a panorama keeps its shape.
 fn scaled_size(manifest: &Manifest, scale: f64) -> (f64, f64) {
-    let (width, height) = manifest.picture.size;
+    let (width, height) = manifest.picture.size.value;
     let halves = manifest.eye_width() < width
         || manifest.observer.lens == manifest::Lens::Panorama && width == 2 * height;
     let parts = if halves { 2.0 } else { 1.0 };
     let side = |side: f64| (side * scale).round().max(1.0);
     (parts * side(f64::from(width) / parts), side(f64::from(height)))
+}
+
+/// What to type for a size that a hint says, `1280 720` and maybe another way out, where a flag said it.
+pub(super) fn typed(size: &str, flag: &str) -> String {
+    if flag == "--scale" && size == manifest::USUAL_SIZE {
+        return "--scale 1".to_owned();
+    }
+    let (size, else_) = size.split_once(", or ").unwrap_or((size, ""));
+    let instead = if flag == "--scale" { " in place of --scale" } else { "" };
+    let no_film = if else_.is_empty() { "" } else { ", or --no-video for pictures alone" };
+    format!("--size {}{instead}{no_film}", size.replace(' ', "x"))
 }

@@ -66,10 +66,23 @@ pub(super) fn of(observer: &Node, partial: bool) -> Lens {
 
 /// Says where a panorama's pixels are no squares.
 pub(super) fn check_size(manifest: &super::Manifest, report: &mut Report) {
-    let height = manifest.picture.size.1;
+    let height = manifest.picture.size.value.1;
     let width = manifest.eye_width();
     if manifest.observer.lens == Lens::Panorama && width != 2 * height {
         let what = format!("a panorama that is not twice as wide as high ({width} x {height}) is squeezed");
-        report.warn(manifest.picture.place.clone(), what, format!("size: {} {height}", 2 * height));
+        report.warn(manifest.picture.size_place().clone(), what, format!("size: {} {height}", 2 * height));
+    }
+    // A fisheye of less than half of all directions is meant to fill the picture.
+    if let lens::Lens::Fisheye { across } = manifest.observer.optics()
+        && across >= PI
+        && width > height
+    {
+        let degrees = across.to_degrees();
+        let what = format!(
+            "the circle of a fisheye of {degrees:.0} degrees is cut above and below ({width} x {height})"
+        );
+        let eyes = manifest.picture.size.value.0 / width;
+        let hint = format!("size: {} {height}", eyes * height);
+        report.warn(manifest.picture.size_place().clone(), what, hint);
     }
 }

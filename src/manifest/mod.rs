@@ -61,6 +61,7 @@ pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
 pub use output::{Depth, Exr, Film, Layer, Output};
 pub use paint::Paint;
+pub(crate) use picture::USUAL_SIZE;
 pub use picture::{Effects, Filter, Picture, White};
 pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};

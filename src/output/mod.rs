@@ -25,7 +25,7 @@ pub use self::avi::Avi;
 pub use self::bmp::{read_bmp, write_bmp};
 pub use self::exr::{Channel, ExrForm, Measured, check_exr, exr_texts, write_exr};
 pub use self::false_color::{Scale, false_color, height_with_legend};
-pub use self::film::{FilmKind, Making};
+pub use self::film::{FilmKind, Making, Refusal, Refused};
 pub use self::gif::Gif;
 pub use self::movie::Movie;
 pub use self::png::{Picture8, Picture16, ReadPng, eight_of, png_texts, read_png, write_png, write_png16};

@@ -153,7 +153,7 @@ fn lens(
         );
         return None;
     };
-    let (width, height) = (manifest.eye_width(), manifest.picture.size.1);
+    let (width, height) = (manifest.eye_width(), manifest.picture.size.value.1);
     let half = libm::tan(0.5 * vertical) * f64::from(width) / f64::from(height);
     Some(Lens::Pinhole { across: 2.0 * libm::atan(half) })
 }
