@@ -192,6 +192,24 @@ fn files_that_have_changed_places_make_another_film() {
 }
 
 #[test]
+fn a_single_bit_that_turned_anywhere_in_a_picture_is_noticed() {
+    let (place, whole) = (Place::new(), Place::new());
+    whole.done(&[]);
+    place.done(&[]);
+    let good = std::fs::read(place.path("0005.png")).unwrap();
+    let find = |word: &str| good.windows(word.len()).position(|bytes| bytes == word.as_bytes()).unwrap();
+    // In texts, in what says how large it is, in the picture, in a sum.
+    for at in [find("Gamma") + 6, find("Velocity") + 12, 20, find("IDAT") + 20, good.len() - 13] {
+        let mut bytes = good.clone();
+        bytes[at] ^= 1;
+        std::fs::write(place.path("0005.png"), &bytes).unwrap();
+        let said = place.done(&[]);
+        assert!(said.contains("11 of 12 pictures are there already"), "{at}: {said}");
+        same(&place, &whole);
+    }
+}
+
+#[test]
 fn every_file_of_an_exposure_is_read_before_it_is_kept() {
     let (place, whole) = (Place::new(), Place::new());
     for one in [&place, &whole] {
