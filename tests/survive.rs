@@ -294,6 +294,10 @@ fn pictures_that_are_not_from_here_are_not_overwritten() {
     image::RgbImage::new(4, 4).save(place.path("0002.png")).unwrap();
     let said = place.refused(&[]);
     assert!(said.contains("`0002.png` is there, and is not from here"), "{said}");
+    // Not even anew; but pictures that are from here give way.
+    let said = place.refused(&["--restart"]);
+    assert!(said.contains("`0002.png` is there, and is not from here"), "{said}");
+    assert_eq!(image::image_dimensions(place.path("0002.png")).unwrap(), (4, 4));
     // What is no picture of the film is nobody's business.
     std::fs::rename(place.path("0002.png"), place.path("0099.png")).unwrap();
     place.done(&["--exposure", "2"]);

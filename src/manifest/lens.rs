@@ -64,7 +64,7 @@ pub(super) fn of(observer: &Node, partial: bool) -> Lens {
     }
 }
 
-/// Says where a panorama's pixels are no squares.
+/// Says where a panorama's pixels are no squares, and where a fisheye's circle is cut.
 pub(super) fn check_size(manifest: &super::Manifest, report: &mut Report) {
     let height = manifest.picture.size.value.1;
     let width = manifest.eye_width();

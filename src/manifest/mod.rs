@@ -158,6 +158,11 @@ pub fn load_with(path: &Path, overrides: &[(String, String)], report: &mut Repor
 
 /// Reads what can be read of the manifest in a file; see [`parse_with`].
 pub fn load_draft(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Draft> {
+    if crate::import::is_model(path) && path.is_file() {
+        let hint = format!("terrell new {} writes a manifest for it", path.display());
+        report.fault(Place::file(path), "this is a model, not a manifest", hint);
+        return None;
+    }
     match read_text(path) {
         Ok(text) => parse_draft(path, &text, overrides, report),
         Err(why) => {
@@ -233,13 +238,13 @@ fn parse_draft(
 fn draft(path: &Path, root: &node::Node, partial: bool, report: &mut Report) -> Option<Draft> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut reader = Reader::new(folder, report);
+    reader.partial = partial;
     if let Ok(manifest) = read(root, &mut reader) {
         extends::warn_of_output(root, path, report);
         return Some(Draft { manifest, sound: true });
     }
     let Reader { rest, light_speed, .. } = reader;
     let mut manifest = yaml::parse(&Source::file(path, USUAL), USUAL, report)
-    reader.partial = partial;
         .and_then(|usual| <Manifest as Kind>::read(&usual, &mut Reader::new(folder, report)).ok())?;
     (manifest.assets, manifest.bodies, manifest.surroundings) = (rest.assets, rest.bodies, rest.surroundings);
     manifest.light_speed = light_speed;
@@ -259,15 +264,15 @@ fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
     let apart = shorthand::check(root, reader);
     let mut manifest = <Manifest as Kind>::read(root, reader)?;
     looking.and(apart)?;
+    if reader.partial {
+        return Err(Reported); // What follows is about the whole.
+    }
     shorthand::expand(&mut manifest, root, reader)?;
     let mut used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
     if let Worldline::Camera(camera) = &manifest.observer.worldline {
         used.insert(&camera.asset.value);
     }
     for (name, asset) in &manifest.assets {
-    if reader.partial {
-        return Err(Reported); // What follows is about the whole.
-    }
         if !used.contains(name) {
             reader.report.warn(asset.place.clone(), format!("no body is made of the asset `{name}`"), "");
         }
