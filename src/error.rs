@@ -240,6 +240,23 @@ pub fn nearest_name<'a>(written: &str, known: impl IntoIterator<Item = &'a str>)
         .map(|(_, name)| name)
 }
 
+/// Names, those first that are the most like what is written.
+pub fn by_nearness<'a>(written: &str, known: &[&'a str]) -> Vec<&'a str> {
+    let mut names = known.to_vec();
+    // Longer ones are no slips of the finger, and their distances cost memory.
+    let distance = |name: &&str| match name.len().max(written.len()) {
+        0..=64 => strsim::damerau_levenshtein(&written.to_lowercase(), &name.to_lowercase()),
+        longer => longer,
+    };
+    names.sort_by_cached_key(distance);
+    names
+}
+
+/// So many of something, as it is said.
+pub(crate) fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 /// The lines of a table that say something, without blanks around them, and at which byte of the text each begins: no
 /// empty ones, no comments (`#`), and no mark of byte order.
 pub(crate) fn table_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {

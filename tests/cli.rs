@@ -299,6 +299,180 @@ fn faults_of_flags_name_the_flags() {
 }
 
 #[test]
+fn scale_makes_what_the_size_would() {
+    // The film that `--size` began is the one that `--scale` goes on with.
+    let few = ["manifests/flyby.yaml", "--samples", "1", "--no-video", "--set", "exposures.count=2"];
+    let (folder, output) = rendered(&[&few[..], &["--size", "32x18"]].concat());
+    assert!(output.status.success(), "{}", said(&output));
+    let out = folder.path().to_str().unwrap();
+    let again = terrell(&[&["render"], &few[..], &["--scale", "0.025", "--out", out]].concat());
+    assert!(again.status.success() && said(&again).contains("2 of 2 pictures"), "{}", said(&again));
+    // Rounded, at least 1; halves for two eyes stay halves, and a panorama twice as wide as high.
+    let eyes = "observer={ stereo: { apart: 6 cm } }";
+    let panorama = "observer={ lens: panorama }";
+    for (size, scale, observer, sides) in [
+        ("33 9", "0.5", "observer.at=0 0 5 m", (17, 5)),
+        ("40 3", "0.1", "observer.at=0 0 5 m", (4, 1)),
+        ("12 9", "2", "observer.at=0 0 5 m", (24, 18)),
+        ("42 20", "0.5", eyes, (22, 10)),
+        ("42 21", "0.5", panorama, (22, 11)),
+    ] {
+        let size = format!("picture.size={size}");
+        let arguments =
+            ["manifests/flyby.yaml", "--exposure", "0", "--set", &size, "--set", observer, "--scale", scale];
+        let (folder, output) = rendered(&arguments);
+        assert!(output.status.success(), "{}", said(&output));
+        let picture = image::open(folder.path().join("0000.png")).unwrap();
+        assert_eq!((picture.width(), picture.height()), sides, "{arguments:?}");
+    }
+    for wrong in ["0", "-1", "nan", "inf", "a quarter", "1e9"] {
+        let (_, output) = rendered(&["manifests/flyby.yaml", "--scale", wrong]);
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+        assert!(said(&output).contains("help: --scale "), "{wrong}: {}", said(&output));
+    }
+    let both = terrell(&["render", "manifests/flyby.yaml", "--scale", "0.5", "--size", "32x18"]);
+    assert!(said(&both).contains("cannot be used with"), "{}", said(&both));
+}
+
+#[test]
+fn of_several_manifests_all_are_checked_before_the_first_is_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let lit = "ambient: { luminance: 20 cd/m2 }\nassets: { a: { sphere: { radius: 1 m } } }\nbodies: [{ asset: a }]\n\
+               picture: { size: 16 16 }\nobserver: { at: 0 0 5 m }\n";
+    let one = write("one.yaml", &format!("{lit}output: one\n"));
+    let two = write("two.yaml", &format!("{lit}output: two\n"));
+    let faulty = write("faulty.yaml", &format!("{lit}output: three\nliights: []\n"));
+    let fast = write("fast.yaml", &format!("{lit}output: four\nexposures: {{ at: 0 s, counnt: 1 }}\n"));
+    let output = terrell(&["render", &one, &faulty, &two, &fast]);
+    assert_eq!(output.status.code(), Some(2));
+    for words in ["faulty.yaml:7:1", "`liights`", "fast.yaml:7:23", "`counnt`"] {
+        assert!(said(&output).contains(words), "{words}: {}", said(&output));
+    }
+    assert!(!folder.path().join("one").exists());
+    // A fault of the command is told once.
+    let output = terrell(&["render", &one, &two, "--exposure", "1"]);
+    assert_eq!(said(&output).matches("there is no exposure 1").count(), 1, "{}", said(&output));
+    // Pictures of another film stay, and the others are rendered.
+    assert!(terrell(&["render", &one]).status.success());
+    let output = terrell(&["render", &one, &two, "--samples", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("--restart") && folder.path().join("two/0000.png").exists());
+    assert!(!folder.path().join("three").exists());
+}
+
+/// A ball that a fisheye, a panorama or two eyes look at.
+const LOOKING: &str = "ambient: { luminance: 20 cd/m2 }
+assets: { a: { sphere: { radius: 1 m } } }
+bodies: [{ asset: a }]
+observer: { at: 0 0 5 m, OBSERVER }
+exposures: { from: 0 s, to: 1 s, count: 2 }
+picture:
+  samples: 1
+  size: SIZE
+film: { file: f.gif, rate: RATE }
+output: out
+";
+
+#[test]
+fn faults_of_the_size_are_told_where_it_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.yaml");
+    let file = path.to_str().unwrap();
+    let write = |observer: &str, size: &str, rate: &str| {
+        let text = LOOKING.replace("OBSERVER", observer).replace("SIZE", size).replace("RATE", rate);
+        std::fs::write(&path, text).unwrap();
+    };
+    let render = |arguments: &[&str]| {
+        let one = ["render", file, "--exposure", "0"];
+        said(&terrell(&[&one, arguments].concat()))
+    };
+    let tell = |said: &str, words: &[&str]| {
+        for word in words {
+            assert!(said.contains(word), "{word}: {said}");
+        }
+    };
+    // In the file, in its line.
+    write("stereo: { apart: 6 cm }", "33 16", "24");
+    tell(&render(&[]), &["m.yaml:8:9", "help: size: 34 16"]);
+    write("lens: panorama", "32 9", "24");
+    tell(&render(&[]), &["m.yaml:8:9", "squeezed", "help: size: 18 9"]);
+    write("lens: fisheye", "32 16", "24");
+    tell(&render(&[]), &["m.yaml:8:9", "cut above and below", "help: size: 16 16"]);
+    // By the flag.
+    write("stereo: { apart: 6 cm }", "32 16", "24");
+    tell(&render(&["--size", "33x16"]), &["error: --size: ", "the command line", "help: --size 34x16"]);
+    write("lens: panorama", "32 16", "24");
+    tell(&render(&["--size", "40x10"]), &["warning: --size: ", "help: --size 20x10"]);
+    assert!(!render(&["--scale", "0.3"]).contains("warning"));
+    write("lens: fisheye", "16 16", "24");
+    tell(&render(&["--size", "40x10"]), &["warning: --size: ", "help: --size 10x10"]);
+    tell(&render(&["--size", "100000x100000"]), &["error: --size: ", "help: --size 1280x720"]);
+    // A fisheye that fills its picture is as it is meant.
+    write("lens: fisheye, field_of_view: 120 deg", "32 16", "24");
+    assert!(!render(&[]).contains("warning"), "{}", render(&[]));
+    // Films.
+    write("direction: 0 0 -1", "32 16", "60");
+    tell(&said(&terrell(&["render", file])), &["m.yaml:9:28", "at most 50", "help: rate: 50"]);
+    if cfg!(feature = "video") {
+        write("direction: 0 0 -1", "32 16", "24");
+        let film = ["render", file, "--set", "film.file=f.mp4", "--size", "8x4"];
+        tell(
+            &said(&terrell(&film)),
+            &["--size: a film cannot be 8 x 4", "help: --size 32x16, or --no-video"],
+        );
+        let film = ["render", file, "--set", "film.file=f.mp4", "--scale", "0.25"];
+        tell(
+            &said(&terrell(&film)),
+            &["--scale: a film cannot", "help: --size 32x16 in place of --scale, or"],
+        );
+    }
+}
+
+#[test]
+fn what_is_no_manifest_and_no_folder_is_said_with_what_to_type() {
+    for command in ["check", "render"] {
+        let output = terrell(&[command, "assets/die.glb"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains("terrell new assets/die.glb"), "{}", said(&output));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "text").unwrap();
+    let out = file.to_str().unwrap();
+    for command in [&["render"][..], &["chart", "--runs", "1"]] {
+        let output = terrell(&[command, &["manifests/flyby.yaml", "--exposure", "0", "--out", out]].concat());
+        assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+        assert!(said(&output).contains("help: --out FOLDER"), "{}", said(&output));
+    }
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "text");
+    // What is wrong with a model is told before that its manifest is there.
+    let new = |model: &str| said(&terrell(&["new", model, "-o", out]));
+    assert!(new("README.md").contains("not a kind of model file"), "{}", new("README.md"));
+    assert!(new("assets/die.glb").contains("--force"));
+}
+
+#[test]
+fn one_thing_is_said_in_the_singular() {
+    let inspected = said(&terrell(&["inspect", "assets/monkey.glb"]));
+    assert!(inspected.contains("triangles shown, 1 mesh\n"), "{inspected}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.yaml");
+    let text =
+        LOOKING.replace("OBSERVER", "direction: 0 0 -1").replace("SIZE", "16 16").replace("RATE", "24");
+    let monkey = top("assets/monkey.glb");
+    std::fs::write(&path, text.replace("{ sphere: { radius: 1 m } }", monkey.to_str().unwrap())).unwrap();
+    let checked = said(&terrell(&["check", path.to_str().unwrap()]));
+    for words in ["1 in 1 rest frame\n", "1 mesh with a tree\n", "1 sample each pixel\n"] {
+        assert!(checked.contains(words), "{words}: {checked}");
+    }
+}
+
+#[test]
 fn new_writes_a_manifest_that_is_sound_and_never_over_another() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("die.yaml");

@@ -271,8 +271,14 @@ fn camera_that_is_none_is_refused_with_what_to_type() {
         let faults = refused(&walk("9 m/s", observer, ""));
         assert!(faults.len() == 1 && faults[0].0.contains(words) && faults[0].1.contains(hint), "{faults:?}");
     };
-    says("camera: { asset: walk }", "has 3 cameras", "name: Camera");
-    says("camera: { asset: walk, name: Camra }", "no camera named `Camra`", "did you mean `Camera`?");
+    says("camera: { asset: walk }", "has 3 cameras", "name: Camera (its cameras are: Camera, Still, Plan)");
+    says(
+        "camera: { asset: walk, name: Camra }",
+        "no camera named `Camra`",
+        "did you mean `Camera`? its cameras are: Camera, ",
+    );
+    says("camera: { asset: walk, name: Steel }", "no camera named `Steel`", "its cameras are: Still, ");
+    says("camera: { asset: walk, name: Drone }", "no camera named `Drone`", "its cameras are: ");
     says("camera: { asset: walk, name: Plan }", "orthographic", "field_of_view: 50 deg");
     let faults = refused(&walk("9 m/s", "camera: { asset: walk, name: Still }", "exposures: { count: 4 },"));
     assert!(faults.len() == 1 && faults[0].0.contains("is not animated"), "{faults:?}");

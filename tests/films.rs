@@ -171,6 +171,19 @@ fn films_that_cannot_be_are_refused_beforehand() {
     assert!(refused(FilmKind::Mp4, (8, 8), 24.0) && !refused(FilmKind::Gif, (8, 8), 24.0));
     assert!(refused(FilmKind::Gif, (64, 48), 60.0) && !refused(FilmKind::Avi, (64, 48), 60.0));
     assert!(refused(FilmKind::Avi, (65_536, 2), 24.0) && refused(FilmKind::Gif, (2, 65_536), 24.0));
+    // What is said to type instead is none of these.
+    for kind in [FilmKind::Mp4, FilmKind::Gif, FilmKind::Avi] {
+        for size in
+            [(8, 8), (3, 5000), (5000, 3), (15, 16), (4096, 2304), (3840, 2400), (100_000, 9), (6000, 6000)]
+        {
+            let Some(refusal) = kind.refusal(size, 24.0) else { continue };
+            let typed =
+                refusal.hint.strip_prefix("size: ").and_then(|hint| hint.split_once(", or ")).unwrap().0;
+            let sides: Vec<u32> = typed.split(' ').map(|side| side.parse().unwrap()).collect();
+            assert!(!refused(kind, (sides[0], sides[1]), 24.0), "{size:?}: {}", refusal.hint);
+        }
+    }
+    assert!(FilmKind::Mp4.refusal((7680, 4320), 24.0).unwrap().hint.starts_with("size: 3840 2160, or "));
     assert_eq!(FilmKind::of("a.b.gif"), Some(FilmKind::Gif));
     assert_eq!(FilmKind::of("gif"), None);
 }

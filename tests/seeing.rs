@@ -253,6 +253,9 @@ fn preview_without_window_and_terminal_says_so_and_writes_nothing() {
     for (arguments, words) in [
         (&["--preview"][..], "a preview cannot be shown: "),
         (&["--preview=terminal"], "a preview cannot be shown: the output is no terminal"),
+        // What to type shows the same exposure.
+        (&["--preview=terminal", "--exposure", "3"], "--exposure 3 --scale 0.25 --out FOLDER"),
+        (&["--preview=terminal", "--from", "4", "--to", "8"], "--exposure 6 --scale 0.25 --out FOLDER"),
     ] {
         let (code, said) = place.render(arguments);
         assert_eq!(code, Some(2), "{said}");
@@ -298,6 +301,8 @@ fn whatever_is_saved_is_rendered_again_and_is_the_same_as_a_fresh_one() {
     // A fault is said, and the picture stays.
     place.write("film.yaml", "bodies: [");
     heard.until("error");
+    // And it is said that it goes on.
+    heard.until("waiting until film.yaml");
     assert!(place.files("out") == second);
     // As editors do it.
     place.write("film.yaml.new", &with_table("wall.csv").replace("400 cd", "100 cd"));
@@ -307,12 +312,14 @@ fn whatever_is_saved_is_rendered_again_and_is_the_same_as_a_fresh_one() {
     // Gone, and there again.
     std::fs::remove_file(place.path("wall.csv")).unwrap();
     heard.until("there is no such file");
+    heard.until("waiting until film.yaml");
     table("0.3");
     heard.until("waiting until film.yaml");
     fresh();
     // What comes only after it was named.
     place.write("film.yaml", &with_table("other.csv"));
     heard.until("there is no such file");
+    heard.until("waiting until film.yaml");
     place.write("other.csv", "400, 0.5\n700, 0.1\n");
     heard.until("waiting until film.yaml");
     fresh();

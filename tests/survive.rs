@@ -192,6 +192,24 @@ fn files_that_have_changed_places_make_another_film() {
 }
 
 #[test]
+fn a_single_bit_that_turned_anywhere_in_a_picture_is_noticed() {
+    let (place, whole) = (Place::new(), Place::new());
+    whole.done(&[]);
+    place.done(&[]);
+    let good = std::fs::read(place.path("0005.png")).unwrap();
+    let find = |word: &str| good.windows(word.len()).position(|bytes| bytes == word.as_bytes()).unwrap();
+    // In texts, in the picture, in a sum. (One of the header makes it a picture that is not from here.)
+    for at in [find("Gamma") + 6, find("Velocity") + 12, find("IDAT") + 20, good.len() - 13] {
+        let mut bytes = good.clone();
+        bytes[at] ^= 1;
+        std::fs::write(place.path("0005.png"), &bytes).unwrap();
+        let said = place.done(&[]);
+        assert!(said.contains("11 of 12 pictures are there already"), "{at}: {said}");
+        same(&place, &whole);
+    }
+}
+
+#[test]
 fn every_file_of_an_exposure_is_read_before_it_is_kept() {
     let (place, whole) = (Place::new(), Place::new());
     for one in [&place, &whole] {
@@ -276,6 +294,10 @@ fn pictures_that_are_not_from_here_are_not_overwritten() {
     image::RgbImage::new(4, 4).save(place.path("0002.png")).unwrap();
     let said = place.refused(&[]);
     assert!(said.contains("`0002.png` is there, and is not from here"), "{said}");
+    // Not even anew; but pictures that are from here give way.
+    let said = place.refused(&["--restart"]);
+    assert!(said.contains("`0002.png` is there, and is not from here"), "{said}");
+    assert_eq!(image::image_dimensions(place.path("0002.png")).unwrap(), (4, 4));
     // What is no picture of the film is nobody's business.
     std::fs::rename(place.path("0002.png"), place.path("0099.png")).unwrap();
     place.done(&["--exposure", "2"]);

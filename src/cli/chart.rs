@@ -4,7 +4,7 @@ use super::{Changes, prepare, print};
 use crate::chart::{self, Deviation, Measured, Method, Subject};
 use crate::error::{Error, Place};
 use crate::exposure::Sampling;
-use crate::output::write_whole;
+use crate::output::{make_folder, write_whole};
 use crate::render::development;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -41,7 +41,7 @@ const WIDEST: u32 = 320;
 
 pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
-    changes.extend(super::size_change(args.size.as_deref())?);
+    changes.extend(super::sized::size_change(args.size.as_deref())?);
     let (_, scene, mut plan) = prepare(&args.manifest, &changes, false)?;
     let number = args.exposure.unwrap_or(plan.exposures.len() / 2);
     let Some(exposure) = plan.exposures.get(number).copied() else {
@@ -54,6 +54,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     }
     let folder = args.out.as_ref().unwrap_or(&plan.folder);
     // A folder that cannot be written is found before all the work, not after it.
+    make_folder(folder)?;
     let trial = folder.join(".chart");
     write(&trial, "")?;
     std::fs::remove_file(&trial).map_err(|error| Error::machine(&trial, "removing", error))?;

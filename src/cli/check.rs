@@ -1,7 +1,7 @@
 //! `terrell check`: every fault, then what the scene needs.
 
 use crate::chart::{Deviation, JUST_NOTICEABLE};
-use crate::error::Error;
+use crate::error::{Error, counted};
 use crate::exposure::{Sampling, expose};
 use crate::film::Negative;
 use crate::manifest::Manifest;
@@ -150,12 +150,18 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     };
     let lines = !scene.lines.is_empty();
     let sampling = &plan.sampling;
+    let frames = counted(scene.world.frames.len(), "rest frame", "rest frames");
+    let trees = counted(meshes.len(), "mesh with a tree", "meshes with a tree each");
+    let lamps = match scene.lamps.len() {
+        1 => "1, with shadows".to_owned(),
+        lamps => format!("{lamps}, each with shadows"),
+    };
     let mut needs = vec![
-        ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),
-        ("triangles", format!("{shown} shown, {} meshes with a tree each", meshes.len())),
-        ("lamps", format!("{}, each with shadows", scene.lamps.len())),
+        ("bodies", format!("{} in {frames}", manifest.bodies.len())),
+        ("triangles", format!("{shown} shown, {trees}")),
+        ("lamps", lamps),
         ("shining", glow_needs(shining)),
-        ("sky", format!("{} surroundings", scene.surroundings.len())),
+        ("sky", counted(scene.surroundings.len(), "surrounding", "surroundings")),
         ("glass", glass.to_owned()),
         ("mirrors", if mirrors { format!("followed {} deep", scene.depth) } else { "none".to_owned() }),
         (
@@ -179,7 +185,7 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
                 sampling.height,
                 match plan.tolerance {
                     Some(tolerance) => format!("99 of 100 pixels to CIEDE2000 {tolerance}"),
-                    None => format!("{} samples each pixel", sampling.samples),
+                    None => counted(sampling.samples as usize, "sample each pixel", "samples each pixel"),
                 }
             ),
         ),

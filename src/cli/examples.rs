@@ -18,7 +18,7 @@ Examples:
   terrell render manifests/flyby.yaml --exposure 40 --size 1920x1080 --samples 16 --out out/large
   terrell render manifests/flyby.yaml --exposure 40 --tolerance 1 --out out/settled
   terrell render manifests/flyby.yaml --set observer.velocity=\"0 0 0.5 c\" --out out/moving
-  terrell render manifests/prism.yaml manifests/tumbler.yaml
+  terrell render manifests/prism.yaml manifests/tumbler.yaml --scale 0.25
   terrell render manifests/flyby.yaml --preview
   terrell render manifests/flyby.yaml --exposure 40 --preview=terminal --watch
 

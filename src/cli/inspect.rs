@@ -1,6 +1,6 @@
 //! `terrell inspect`: what is in a model file, to copy names from.
 
-use crate::error::{Error, Place};
+use crate::error::{Error, Place, counted};
 use crate::import::{self, Asset, Coverage, LightKind, Material, NormalMap};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -40,7 +40,8 @@ fn as_text(asset: &Asset) -> String {
         text += &format!("size {:.3} x {:.3} x {:.3} m, ", size.x, size.y, size.z);
     }
     let shown: usize = asset.instances.iter().map(|i| asset.meshes[i.mesh].triangles.len()).sum();
-    text += &format!("{shown} triangles shown, {} meshes\n\nnodes\n", asset.meshes.len());
+    let meshes = counted(asset.meshes.len(), "mesh", "meshes");
+    text += &format!("{} shown, {meshes}\n\nnodes\n", counted(shown, "triangle", "triangles"));
     let contents = contents(asset);
     let mut depths: Vec<usize> = Vec::with_capacity(asset.nodes.len());
     for (number, things) in contents.iter().enumerate() {
@@ -79,9 +80,9 @@ fn contents(asset: &Asset) -> Vec<Vec<String>> {
     for instance in &asset.instances {
         let mesh = &asset.meshes[instance.mesh];
         contents[instance.node].push(format!(
-            "mesh {}, {} triangles",
+            "mesh {}, {}",
             name(&mesh.name),
-            mesh.triangles.len()
+            counted(mesh.triangles.len(), "triangle", "triangles")
         ));
     }
     for light in &asset.lights {

@@ -9,6 +9,7 @@ mod new;
 mod preview;
 mod progress;
 mod signals;
+mod sized;
 mod watch;
 
 use crate::diagnostic;
@@ -82,6 +83,9 @@ struct RenderArgs {
     /// Width and height in pixels, as in 640x360
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
+    /// Width and height times this, rounded: 0.25 is a quarter of each side
+    #[arg(long, value_name = "FACTOR", conflicts_with = "size", allow_negative_numbers = true)]
+    scale: Option<String>,
     /// Samples per pixel
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<String>,
@@ -212,13 +216,14 @@ fn colored() -> bool {
 /// What a manifest asks for and means, with warnings printed; or all faults. `film`: whether its film may be wanted.
 fn prepare(path: &Path, changes: &[(String, String)], film: bool) -> Result<(Manifest, Scene, Plan), Error> {
     let mut report = Report::default();
-    let all = prepare_into(path, changes, film, &mut report);
+    let all = compose_into(path, changes, film, &mut report);
+    look(all.as_ref(), &mut report);
     say(&warnings(&report.warnings));
     report.finish(all)
 }
 
-/// The same, with faults and warnings reported.
-fn prepare_into(
+/// The same, with faults and warnings reported, and nothing looked at.
+fn compose_into(
     path: &Path,
     changes: &[(String, String)],
     film: bool,
@@ -236,21 +241,14 @@ fn prepare_into(
     let manifest = Manifest { film: draft.manifest.film.filter(|_| film), ..draft.manifest };
     let scene = compose_rest(&manifest, path, report);
     let plan = Plan::of(&manifest, &scene, path, report);
-    if report.faults.is_empty() {
-        meaning::check(&manifest, &scene, &plan, report);
-    }
     Some((manifest, scene, plan)).filter(|_| report.faults.is_empty())
 }
 
-/// The change that `--size` asks for.
-fn size_change(size: Option<&str>) -> Result<Option<(String, String)>, Error> {
-    let Some(size) = size else { return Ok(None) };
-    let sides = size.split(['x', 'X', '×']).filter(|side| side.parse::<u32>().is_ok_and(|side| side > 0));
-    if sides.count() != 2 {
-        let what = format!("`--size {size}` is not a width and a height in pixels");
-        return Err(Error::fault(Place::Command, what, "--size 1280x720"));
+/// Warns of what will not be seen.
+fn look(all: Option<&(Manifest, Scene, Plan)>, report: &mut Report) {
+    if let Some((manifest, scene, plan)) = all {
+        meaning::check(manifest, scene, plan, report);
     }
-    Ok(Some(("picture.size".to_owned(), size.replace(['x', 'X', '×'], " "))))
 }
 
 /// The threads that trace.
@@ -267,7 +265,8 @@ fn pool(threads: Option<u16>) -> Result<rayon::ThreadPool, Error> {
 
 fn render_all(args: &RenderArgs) -> Result<(), Error> {
     let mut changes = args.changes.pairs()?;
-    changes.extend(size_change(args.size.as_deref())?);
+    changes.extend(sized::size_change(args.size.as_deref())?);
+    sized::check_scale(args.scale.as_deref())?;
     if let Some(samples) = &args.samples {
         changes.push(("picture.samples".to_owned(), samples.clone()));
     }
@@ -289,8 +288,42 @@ fn render_all(args: &RenderArgs) -> Result<(), Error> {
         return args.manifests.iter().try_for_each(|path| preview::run(path, &changes, args));
     }
     let pool = pool(args.threads)?;
-    let render = if args.seeing.watch { watch::run } else { render_one };
-    args.manifests.iter().try_for_each(|path| pool.install(|| render(path, &changes, args)))
+    if args.seeing.watch {
+        return args.manifests.iter().try_for_each(|path| pool.install(|| watch::run(path, &changes, args)));
+    }
+    pool.install(|| render_each(&changes, args))
+}
+
+/// Renders one manifest after the other. What is wrong with any of them is told before the first one is rendered; a folder that
+/// is refused leaves the others as they are.
+fn render_each(changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
+    let mut faults = Vec::new();
+    if args.manifests.len() > 1 {
+        for path in &args.manifests {
+            let mut report = Report::default();
+            let composed = composed(path, changes, args, &mut report).map(|(_, _, plan)| plan);
+            let plan = report.finish(composed);
+            if let Err(Error::Input(more)) = plan.and_then(|plan| chosen(args, plan.exposures.len())) {
+                // A fault of the command is one fault, however many manifests there are.
+                faults.extend(more.into_iter().filter(|fault| !faults.contains(fault)).collect::<Vec<_>>());
+            }
+        }
+    }
+    if !faults.is_empty() {
+        return Err(Error::Input(faults));
+    }
+    for path in &args.manifests {
+        match render_one(path, changes, args) {
+            Err(Error::Input(more)) => faults.extend(more),
+            Err(error) if faults.is_empty() => return Err(error),
+            Err(error) => {
+                say(&complaint(&Error::Input(faults)));
+                return Err(error);
+            }
+            Ok(()) => {}
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
 }
 
 fn render_one(path: &Path, changes: &[(String, String)], args: &RenderArgs) -> Result<(), Error> {
@@ -308,8 +341,8 @@ fn prepared(
     args: &RenderArgs,
     report: &mut Report,
 ) -> Option<(Scene, Plan)> {
-    let ready = prepare_into(path, changes, args.exposure.is_none(), report);
-    name_as_flags(&mut report.faults, args);
+    let ready = composed(path, changes, args, report);
+    look(ready.as_ref(), report);
     let (_, scene, mut plan) = ready?;
     if let Some(folder) = &args.out {
         plan.folder.clone_from(folder);
@@ -321,6 +354,27 @@ fn prepared(
     Some((scene, plan))
 }
 
+fn composed(
+    path: &Path,
+    changes: &[(String, String)],
+    args: &RenderArgs,
+    report: &mut Report,
+) -> Option<(Manifest, Scene, Plan)> {
+    let scaled = sized::scaled(path, changes, args.scale.as_deref());
+    let flags = [
+        ("size", "--size", args.size.is_some()),
+        ("size", "--scale", scaled.is_some()),
+        ("samples", "--samples", args.samples.is_some()),
+        ("tolerance", "--tolerance", args.tolerance.is_some()),
+    ];
+    let changes = scaled.as_deref().unwrap_or(changes);
+    let ready = compose_into(path, changes, args.exposure.is_none(), report);
+    for (key, flag, _) in flags.into_iter().filter(|(.., given)| *given) {
+        name_as_flag(report.faults.iter_mut().chain(&mut report.warnings), key, flag);
+    }
+    ready
+}
+
 fn render_ready(scene: &Scene, plan: &Plan, args: &RenderArgs, stop: &Stop) -> Result<(), Error> {
     let chosen = chosen(args, plan.exposures.len())?;
     let films =
@@ -329,20 +383,17 @@ fn render_ready(scene: &Scene, plan: &Plan, args: &RenderArgs, stop: &Stop) -> R
     render::render_until(scene, plan, chosen, stop, |step| progress.show(&step))
 }
 
-/// Faults of what flags say, as faults of the flags and not of the keys that they stand for.
-fn name_as_flags(faults: &mut [Fault], args: &RenderArgs) {
-    let flags = [
-        ("size", args.size.is_some()),
-        ("samples", args.samples.is_some()),
-        ("tolerance", args.tolerance.is_some()),
-    ];
-    for (flag, _) in flags.into_iter().filter(|(_, given)| *given) {
-        let change = format!("--set picture.{flag}=");
-        let of_flag = |fault: &&mut Fault| matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change));
-        for fault in faults.iter_mut().filter(of_flag) {
-            fault.place = Place::Command;
-            fault.what = format!("--{flag}: {}", fault.what);
-            fault.hint = fault.hint.replacen(&format!("{flag}: "), &format!("--{flag} "), 1);
+/// Faults of what a flag says, as faults of the flag and not of the key that it stands for.
+fn name_as_flag<'f>(faults: impl Iterator<Item = &'f mut Fault>, key: &str, flag: &str) {
+    let change = format!("--set picture.{key}=");
+    for fault in faults {
+        if !matches!(&fault.place, Place::Argument { text, .. } if text.starts_with(&change)) {
+            continue;
+        }
+        fault.place = Place::Command;
+        fault.what = format!("{flag}: {}", fault.what);
+        if let Some(typed) = fault.hint.strip_prefix(&format!("{key}: ")) {
+            fault.hint = if key == "size" { sized::typed(typed, flag) } else { format!("{flag} {typed}") };
         }
     }
 }

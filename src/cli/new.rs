@@ -1,6 +1,7 @@
 //! `terrell new`: a manifest to begin with, for any model.
 
 use crate::error::{Error, Place};
+use crate::import;
 use crate::output::write_whole;
 use crate::starter::{Motion, starter};
 use clap::Args;
@@ -35,6 +36,8 @@ pub(super) fn run(args: &NewArgs) -> Result<(), Error> {
     let stem = args.model.file_stem().map_or_else(|| "model".into(), |stem| stem.to_string_lossy());
     let file = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}-{word}.yaml")));
     if file.exists() && !args.force {
+        // What is wrong with the model is told first.
+        import::load(&args.model, args.model.parent().unwrap_or(Path::new("")))?;
         let hint = "--force writes over it, -o FILE writes another";
         return Err(Error::fault(Place::file(&file), "this file is there already", hint));
     }

@@ -34,10 +34,7 @@ pub(super) fn run(path: &Path, changes: &[(String, String)], args: &RenderArgs) 
                 rendered = Some(fingerprint);
             }
             done?;
-            say(&format!(
-                "waiting until {} or a file that it reads is saved: Ctrl-C ends this\n",
-                path.display()
-            ));
+            say(&waiting(path));
             Ok(())
         });
         match done {
@@ -45,6 +42,11 @@ pub(super) fn run(path: &Path, changes: &[(String, String)], args: &RenderArgs) 
             Err(error) => Err(error),
         }
     })
+}
+
+/// What is said while nothing is done.
+fn waiting(manifest: &Path) -> String {
+    format!("waiting until {} or a file that it reads is saved: Ctrl-C ends this\n", manifest.display())
 }
 
 /// What is seen of a file without reading it; none if it is not there.
@@ -151,6 +153,7 @@ pub(super) fn rounds(
                     let text = super::complaint(&error);
                     if text != said {
                         say(&text);
+                        say(&waiting(manifest));
                         said = text;
                     }
                 }

@@ -150,6 +150,20 @@ impl Asset {
 /// The most faults (and warnings) that one file may report; the rest are only counted.
 const REPORT_LIMIT: usize = 50;
 
+/// Whether a file is glTF, and not OBJ, by its name; none if it is no model.
+fn is_gltf(path: &Path) -> Option<bool> {
+    match path.extension()?.to_str()?.to_lowercase().as_str() {
+        "glb" | "gltf" => Some(true),
+        "obj" => Some(false),
+        _ => None,
+    }
+}
+
+/// Whether a file is a model, by its name.
+pub fn is_model(path: &Path) -> bool {
+    is_gltf(path).is_some()
+}
+
 /// Reads a model file and the files it names.
 ///
 /// The extension says which format it is, in capitals or not. No file outside of the folder `root` is read,
@@ -164,17 +178,9 @@ pub fn load_with<T: Send>(
     root: &Path,
     make: impl FnOnce(&[Arc<Mesh>]) -> T + Send,
 ) -> Result<(Asset, T), Error> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-    let is_gltf = match extension.as_str() {
-        "glb" | "gltf" => true,
-        "obj" => false,
-        _ => {
-            return Err(Error::fault(
-                Place::file(path),
-                "not a kind of model file that is known",
-                "the supported ones end in .glb, .gltf or .obj: export it as one of these",
-            ));
-        }
+    let Some(is_gltf) = is_gltf(path) else {
+        let hint = "the supported ones end in .glb, .gltf or .obj: export it as one of these";
+        return Err(Error::fault(Place::file(path), "not a kind of model file that is known", hint));
     };
     let (files, folder, bytes) = Files::open(path, root)?;
     let mut job =

@@ -231,7 +231,7 @@ impl Kind for AssetName {
         }
         let known = reader.assets.iter().map(String::as_str);
         let hint = if reader.suggests() { instead(&name.value, known, "assets") } else { String::new() };
-        Err(reader.fault(&name.place, format!("there is no asset named `{}`", name.value), hint))
+        Err(reader.missing(&name.place, format!("there is no asset named `{}`", name.value), hint))
     }
 }
 

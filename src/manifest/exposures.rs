@@ -83,12 +83,14 @@ impl Kind for ExposuresKind {
                 });
             }
             let what = format!("{count} exposures need a time from which and one to which");
-            return Err(reader.fault(&keys.place, what, "from: 0 s, to: 4 s"));
+            return Err(reader.missing(&keys.place, what, "from: 0 s, to: 4 s"));
         };
         let Some(count) = keys.count else {
-            return Err(reader.fault(&keys.place, "how many exposures?", "count: 96"));
+            return Err(reader.missing(&keys.place, "how many exposures?", "count: 96"));
         };
         let instant_ring = reader.ring && to.value >= from;
+        // The ring may be in a manifest that could not be had.
+        let instant_ring = instant_ring || reader.partial && to.value == from;
         if count > 1 && to.value <= from && !instant_ring {
             let text = |key: &str| node.get(key).and_then(|node| node.text()).unwrap_or("0 s").to_owned();
             let hint = if to.value == from {
@@ -111,7 +113,7 @@ fn span(keys: &ExposuresKeys, reader: &mut Reader<'_>) -> Read<(f64, Option<Span
             Err(reader.fault(&at.place, what, "remove `at`, or `from` and `to`"))
         }
         (None, Some(to), None) => {
-            Err(reader.fault(&to.place, "exposures have a `to` but no `from`", "from: 0 s"))
+            Err(reader.missing(&to.place, "exposures have a `to` but no `from`", "from: 0 s"))
         }
         (Some(from), to, None) => Ok((*from, to.clone())),
     }

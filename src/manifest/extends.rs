@@ -11,7 +11,7 @@ use super::reader::{Read, Reader};
 use super::record::{Field, Kind, Record, Shape};
 use super::table::read_text;
 use super::{Manifest, shorthand, yaml};
-use crate::error::{Place, Report};
+use crate::error::{Fault, Place, Report};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -22,15 +22,17 @@ const MOST_FILES: usize = 64;
 /// Lists whose items may be changed by a map of them.
 pub(super) const LISTS: [&str; 2] = ["bodies", "lights"];
 
-/// The tree of a manifest with those that it extends below it; their files, in the order in which they are read, are added to
-/// `read`. None, with faults, if one of them cannot be had.
+/// The tree of a manifest with those that it extends below it, and whether one of them, with a fault, could not be had. Their files,
+/// in the order in which they are read, are added to `read`.
 pub(super) fn resolve(
     root: Rc<Node>,
     path: &Path,
     read: &mut Vec<PathBuf>,
     report: &mut Report,
-) -> Option<Rc<Node>> {
-    Bases { open: vec![path.to_owned()], read, values: 0, report }.resolve(root)
+) -> (Rc<Node>, bool) {
+    let mut bases = Bases { open: vec![path.to_owned()], read, values: 0, partial: false, report };
+    let root = bases.resolve(root);
+    (root, bases.partial)
 }
 
 /// The manifests that one extends. They are put below it before it is read: here they come too late.
@@ -52,33 +54,38 @@ struct Bases<'r> {
     open: Vec<PathBuf>,
     read: &'r mut Vec<PathBuf>,
     values: usize,
+    /// Whether one could not be had.
+    partial: bool,
     report: &'r mut Report,
 }
 
 impl Bases<'_> {
-    fn resolve(&mut self, mut root: Rc<Node>) -> Option<Rc<Node>> {
-        let Content::Map(entries) = &root.content else { return Some(root) };
-        let Some(at) = entries.iter().position(|entry| entry.key == "extends") else { return Some(root) };
+    fn resolve(&mut self, mut root: Rc<Node>) -> Rc<Node> {
+        let Content::Map(entries) = &root.content else { return root };
+        let Some(at) = entries.iter().position(|entry| entry.key == "extends") else { return root };
         let named = entries[at].value.clone();
         self.values += root.values;
         if let Content::Map(entries) = &mut Rc::make_mut(&mut root).content {
             entries.remove(at);
         }
-        let known = self.report.faults.len();
         let names: &[Rc<Node>] = match &named.content {
             Content::List(items) => items,
             _ => std::slice::from_ref(&named),
         };
-        let bases: Vec<_> = names.iter().filter_map(|name| self.base(name)).collect();
+        let all: Vec<_> = names.iter().filter_map(|name| self.base(name)).collect();
+        self.partial |= all.len() < names.len();
         let shape = super::shape();
-        let all = bases.into_iter().chain([root]).reduce(|mut under, over| {
+        let over_all = |mut under: Rc<Node>, over: &Rc<Node>| {
             if shorthand::KEYS.iter().any(|key| over.get(key).is_some_and(|value| !value.is_removal())) {
                 shorthand::make_way(Rc::make_mut(&mut under));
             }
             let mut merge = Merge { report: self.report };
-            merge.node("", &under, &over, Some(&shape))
-        });
-        all.filter(|_| self.report.faults.len() == known)
+            merge.node("", &under, over, Some(&shape))
+        };
+        match all.split_first() {
+            Some((first, more)) => more.iter().chain([&root]).fold(first.clone(), over_all),
+            None => root,
+        }
     }
 
     /// The tree of a manifest that another one names.
@@ -128,7 +135,7 @@ impl Bases<'_> {
         self.open.push(path);
         let resolved = self.resolve(root);
         self.open.pop();
-        resolved
+        Some(resolved)
     }
 
     fn fault<T>(&mut self, node: &Node, what: impl Into<String>, hint: impl Into<String>) -> Option<T> {
@@ -162,8 +169,14 @@ impl Merge<'_> {
                 let mut items: Vec<_> = below.iter().cloned().map(Some).collect();
                 let of = shape.and_then(item_shape);
                 let mut more = Vec::new();
+                let mut changed: Vec<Option<&Entry>> = vec![None; below.len()];
                 for entry in above {
-                    self.item(&mut items, below, entry, (key, of.as_ref()), &mut more);
+                    let Some(at) = self.item(&mut items, below, entry, (key, of.as_ref()), &mut more) else {
+                        continue;
+                    };
+                    if let Some(first) = changed[at].replace(entry) {
+                        self.changed_twice(key, first, entry);
+                    }
                 }
                 let items = items.into_iter().flatten().chain(more).collect();
                 Node::new(over.place.clone(), Content::List(items)).into()
@@ -188,7 +201,15 @@ impl Merge<'_> {
         }
     }
 
-    /// A change of one item of a list; `+` adds items to it.
+    /// An item that is changed under its name and under its number.
+    fn changed_twice(&mut self, key: &str, first: &Entry, second: &Entry) {
+        let what = format!("`{key}`: `{}` and `{}` are the same item", first.key, second.key);
+        let hint = format!("write all that changes under `{}`", first.key);
+        let fault = Fault::new(second.key_place.clone(), what, hint);
+        self.report.faults.push(fault.and(first.key_place.clone(), "changed here already"));
+    }
+
+    /// A change of one item of a list, which one; `+` adds items to it.
     fn item(
         &mut self,
         items: &mut [Option<Rc<Node>>],
@@ -196,17 +217,24 @@ impl Merge<'_> {
         over: &Entry,
         (key, of): (&str, Option<&Shape>),
         more: &mut Vec<Rc<Node>>,
-    ) {
+    ) -> Option<usize> {
         if over.key == "+" {
-            return match &over.value.content {
+            match &over.value.content {
                 Content::List(added) => more.extend(added.iter().cloned()),
                 _ => more.push(over.value.clone()),
-            };
+            }
+            return None;
         }
         match item(below, &over.key) {
-            Ok(at) if over.value.is_removal() => items[at] = None,
-            Ok(at) => items[at] = Some(self.node("", &below[at], &over.value, of)),
-            Err((what, hint)) => self.report.fault(over.key_place.clone(), format!("`{key}`: {what}"), hint),
+            Ok(at) => {
+                let removed = over.value.is_removal();
+                items[at] = (!removed).then(|| self.node("", &below[at], &over.value, of));
+                Some(at)
+            }
+            Err((what, hint)) => {
+                self.report.fault(over.key_place.clone(), format!("`{key}`: {what}"), hint);
+                None
+            }
         }
     }
 }

@@ -113,11 +113,11 @@ impl Kind for GlassKind {
             (Some(color), Some(distance)) => Some(Tint { color: color.value, distance: distance.value }),
             (Some(color), None) => {
                 let what = "after how much of this glass is that colour left?";
-                return Err(reader.fault(&color.place, what, "distance: 10 cm"));
+                return Err(reader.missing(&color.place, what, "distance: 10 cm"));
             }
             (None, Some(distance)) => {
                 let what = "this glass has a `distance` but no `color` that is left after it";
-                return Err(reader.fault(&distance.place, what, "color: { rgb: 0.2 0.8 0.3 }"));
+                return Err(reader.missing(&distance.place, what, "color: { rgb: 0.2 0.8 0.3 }"));
             }
         };
         refracts(node, &keys.index, reader)?;

@@ -67,8 +67,11 @@ impl Kind for PathKeys {
 /// Those of the pieces that are too fast of themselves, or faster than the pieces beside them: a fast piece makes others
 /// fast, since the path has no corners.
 fn worth_telling(keys: &[(f64, DVec3)], too_fast: &[TooFast]) -> Vec<TooFast> {
-    let speed =
-        |piece: usize| too_fast.iter().find(|found| found.piece == piece).map_or(0.0, |found| found.speed);
+    // They come in the order of the pieces.
+    let speed = |piece: usize| {
+        let at = too_fast.binary_search_by_key(&piece, |found| found.piece);
+        at.ok().and_then(|at| too_fast.get(at)).map_or(0.0, |found| found.speed)
+    };
     let mut told = too_fast.to_vec();
     told.retain(|found| {
         let straight = match keys.get(found.piece..found.piece + 2) {

@@ -53,21 +53,36 @@ impl Kind for FieldOfView {
     }
 }
 
-/// Which lens an observer has: it decides what angles there may be.
-pub(super) fn of(observer: &Node) -> Lens {
-    match observer.get("lens").and_then(|lens| lens.text()) {
-        Some("fisheye") => Lens::Fisheye,
-        Some("panorama") => Lens::Panorama,
+/// Which lens an observer has: it decides what angles there may be. Of a manifest of which a part is missing, that of the
+/// widest angles unless it is said.
+pub(super) fn of(observer: &Node, partial: bool) -> Lens {
+    match observer.get("lens").map(|lens| lens.text()) {
+        Some(Some("fisheye")) => Lens::Fisheye,
+        Some(Some("panorama")) => Lens::Panorama,
+        None if partial => Lens::Fisheye,
         _ => Lens::Pinhole,
     }
 }
 
-/// Says where a panorama's pixels are no squares.
+/// Says where a panorama's pixels are no squares, and where a fisheye's circle is cut.
 pub(super) fn check_size(manifest: &super::Manifest, report: &mut Report) {
-    let height = manifest.picture.size.1;
+    let height = manifest.picture.size.value.1;
     let width = manifest.eye_width();
     if manifest.observer.lens == Lens::Panorama && width != 2 * height {
         let what = format!("a panorama that is not twice as wide as high ({width} x {height}) is squeezed");
-        report.warn(manifest.picture.place.clone(), what, format!("size: {} {height}", 2 * height));
+        report.warn(manifest.picture.size_place().clone(), what, format!("size: {} {height}", 2 * height));
+    }
+    // A fisheye of less than half of all directions is meant to fill the picture.
+    if let lens::Lens::Fisheye { across } = manifest.observer.optics()
+        && across >= PI
+        && width > height
+    {
+        let degrees = across.to_degrees();
+        let what = format!(
+            "the circle of a fisheye of {degrees:.0} degrees is cut above and below ({width} x {height})"
+        );
+        let eyes = manifest.picture.size.value.0 / width;
+        let hint = format!("size: {} {height}", eyes * height);
+        report.warn(manifest.picture.size_place().clone(), what, hint);
     }
 }

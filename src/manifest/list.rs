@@ -1,5 +1,6 @@
 //! Lists, and maps with names of the user's own.
 
+use super::extends::LISTS;
 use super::node::{Content, Entry, Node};
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape};
@@ -20,7 +21,14 @@ impl<K: Kind> Kind for List<K> {
         let Content::List(items) = &node.content else {
             let key = reader.key().unwrap_or("this").to_owned();
             let what = format!("`{key}` is a list; this is {}", node.describe());
-            return Err(reader.fault(&node.place, what, "begin each item with `- ` on a line of its own"));
+            let hint = "begin each item with `- ` on a line of its own";
+            // It may change items of a list that is in a manifest that could not be had.
+            let changes = LISTS.contains(&key.as_str()) && matches!(node.content, Content::Map(_));
+            return Err(if changes {
+                reader.missing(&node.place, what, hint)
+            } else {
+                reader.fault(&node.place, what, hint)
+            });
         };
         let (values, sound) = each::<K>(items, reader);
         sound.map(|()| values)

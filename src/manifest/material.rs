@@ -205,12 +205,12 @@ impl Kind for Material {
             (MaterialKind::Metal(metal), Some(roughness)) => metal.roughness = roughness.value,
             (_, Some(roughness)) => {
                 let hint = "metal: gold, or gloss: { base: 0.8, roughness: 0.3 }";
-                return Err(reader.fault(&roughness.place, "`roughness` is for metals", hint));
+                return Err(reader.missing(&roughness.place, "`roughness` is for metals", hint));
             }
             (MaterialKind::Imported, None) if beyond.is_none() => {
                 let kinds = super::record::keys::<MaterialKind>();
                 let what = format!("a material needs one of {kinds}");
-                return Err(reader.fault(&place, what, "diffuse: 0.8"));
+                return Err(reader.missing(&place, what, "diffuse: 0.8"));
             }
             _ => {}
         }

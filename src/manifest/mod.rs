@@ -61,6 +61,7 @@ pub use motion::Placement;
 pub use observer::{LookAt, Observer, Orbit, Ring, Rocket, View, Worldline};
 pub use output::{Depth, Exr, Film, Layer, Output};
 pub use paint::Paint;
+pub(crate) use picture::USUAL_SIZE;
 pub use picture::{Effects, Filter, Picture, White};
 pub use reader::LIGHT_SPEED;
 pub use record::{Field, Presence, RecordShape, Shape};
@@ -84,7 +85,7 @@ use motion::LightSpeed;
 use node::Source;
 use observer::ObserverKind;
 use output::OutputKind;
-use reader::{Read, Reader};
+use reader::{Read, Reader, Reported};
 use record::{Kind, List, record};
 use spectrum::Spectra;
 use std::collections::{BTreeMap, BTreeSet};
@@ -158,6 +159,11 @@ pub fn load_with(path: &Path, overrides: &[(String, String)], report: &mut Repor
 
 /// Reads what can be read of the manifest in a file; see [`parse_with`].
 pub fn load_draft(path: &Path, overrides: &[(String, String)], report: &mut Report) -> Option<Draft> {
+    if crate::import::is_model(path) && path.is_file() {
+        let hint = format!("terrell new {} writes a manifest for it", path.display());
+        report.fault(Place::file(path), "this is a model, not a manifest", hint);
+        return None;
+    }
     match read_text(path) {
         Ok(text) => parse_draft(path, &text, overrides, report),
         Err(why) => {
@@ -211,11 +217,12 @@ fn parse_draft(
     let mut found = Report::default();
     let mut files = vec![path.to_owned()];
     let root = yaml::parse(&Source::file(path, text), text, &mut found)
-        .and_then(|root| extends::resolve(root, path, &mut files, &mut found));
+        .map(|root| extends::resolve(root, path, &mut files, &mut found));
     report.inputs.bases.extend(files.iter().skip(1).cloned());
-    let draft = root.and_then(|root| overrides::apply(root, overrides, &mut found)).and_then(|root| {
+    let draft = root.and_then(|(root, partial)| {
+        let root = overrides::apply(root, overrides, partial, &mut found)?;
         report.inputs.manifest = Some(canonical::digest(&root));
-        draft(path, &root, &mut found)
+        draft(path, &root, partial, &mut found)
     });
     let sound = found.faults.is_empty();
     found.faults.sort_by_key(|fault| extends::order(&files, &fault.place));
@@ -229,9 +236,10 @@ fn parse_draft(
     })
 }
 
-fn draft(path: &Path, root: &node::Node, report: &mut Report) -> Option<Draft> {
+fn draft(path: &Path, root: &node::Node, partial: bool, report: &mut Report) -> Option<Draft> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut reader = Reader::new(folder, report);
+    reader.partial = partial;
     if let Ok(manifest) = read(root, &mut reader) {
         extends::warn_of_output(root, path, report);
         return Some(Draft { manifest, sound: true });
@@ -250,13 +258,16 @@ const USUAL: &str = "{ observer: {}, output: out }";
 fn read(root: &node::Node, reader: &mut Reader<'_>) -> Read<Manifest> {
     let looking = if extends::nobody_looks(root) {
         let what = "a manifest needs `observer`, `turntable` or `flyby`";
-        Err(reader.fault(&root.place, what, "observer: { at: 0 1.2 5 m }"))
+        Err(reader.missing(&root.place, what, "observer: { at: 0 1.2 5 m }"))
     } else {
         Ok(())
     };
     let apart = shorthand::check(root, reader);
     let mut manifest = <Manifest as Kind>::read(root, reader)?;
     looking.and(apart)?;
+    if reader.partial {
+        return Err(Reported); // What follows is about the whole.
+    }
     shorthand::expand(&mut manifest, root, reader)?;
     let mut used: BTreeSet<_> = manifest.bodies.iter().map(|body| &body.asset.value).collect();
     if let Worldline::Camera(camera) = &manifest.observer.worldline {

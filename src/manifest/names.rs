@@ -79,7 +79,7 @@ pub(crate) fn find<T: Nameable>(name: &Spanned<String>, reader: &mut Reader<'_>)
     let Some(node) = names.written.get(&name.value).cloned() else {
         let known = names.written.keys().map(String::as_str).chain(T::BUILT_IN.iter().copied());
         let hint = if suggests { instead(&name.value, known, T::UNDER) } else { String::new() };
-        return Err(reader.fault(
+        return Err(reader.missing(
             &name.place,
             format!("there is no {} named `{}`", T::WHAT, name.value),
             hint,

@@ -85,7 +85,7 @@ impl Kind for LookAt {
             [] if !Written::of(text).numbers.is_empty() => Ok(Self::Point(Point::read(node, reader)?)),
             [] => {
                 let hint = instead(text, reader.bodies.iter().map(String::as_str), "bodies");
-                Err(reader.fault(&node.place, format!("there is no body named `{text}`"), hint))
+                Err(reader.missing(&node.place, format!("there is no body named `{text}`"), hint))
             }
             several => {
                 let what = format!("{} bodies are named `{text}`", several.len());
@@ -148,7 +148,7 @@ impl Kind for ObserverKind {
         Observer::shape()
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<Observer> {
-        reader.lens = lens::of(node);
+        reader.lens = lens::of(node, reader.partial);
         reader.ring = node.get("ring").is_some();
         reader.filmed = node.get("camera").is_some();
         let sound = camera::check(node, reader);

@@ -1,7 +1,8 @@
 //! Where pictures and films go, and as what.
 
+use super::Spanned;
 use super::node::{Content, Node};
-use super::plain::{FilePath, Real, Switch, Text, whole, words};
+use super::plain::{FilePath, Placed, Real, Switch, Text, whole, words};
 use super::reader::{Read, Reader};
 use super::record::{Kind, List, Shape, record};
 use crate::error::Place;
@@ -75,11 +76,13 @@ impl Kind for FileNames {
     }
 }
 
+const USUAL_RATE: Spanned<f64> = Spanned { value: 24.0, place: Place::Command };
+
 record! {
     /// The film that is made of the exposures.
     pub Film, "the film" {
         /// Pictures in a second.
-        rate: f64 = Rate, default(24.0), "24";
+        rate: Spanned<f64> = Placed<Rate>, default(USUAL_RATE), "24";
         /// Its file in the output folder, or several: MP4, GIF or AVI by their endings.
         file: Vec<String> = FileNames, default(Vec::new()), "[flyby.mp4, flyby.gif]";
         /// Whether a video is made, beside the pictures.
@@ -90,7 +93,7 @@ record! {
 impl Film {
     /// The film that is made if nothing is said about it.
     pub(crate) fn usual() -> Self {
-        Self { place: Place::Command, rate: 24.0, file: Vec::new(), video: true }
+        Self { place: Place::Command, rate: USUAL_RATE, file: Vec::new(), video: true }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::extends::{inside, item_shape};
 use super::list::item;
 use super::node::{Content, Entry, Node, Source};
-use super::record::Shape;
+use super::record::{Field, Presence, RecordShape, Shape};
 use super::{shorthand, yaml};
 use crate::error::{Place, Report};
 use std::rc::Rc;
@@ -13,7 +13,14 @@ const EXAMPLES: &str = "--set observer.velocity=\"0 0 0.5 c\", --set bodies.monk
 
 /// The tree with each override at its path of keys; maps that are missing on the way are made. Items of lists go by name or
 /// number, `+` adds one; `~` takes away what is at the path.
-pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut Report) -> Option<Rc<Node>> {
+///
+/// `partial`: whether a part of the tree could not be had, so that a path may lead there.
+pub(crate) fn apply(
+    root: Rc<Node>,
+    overrides: &[(String, String)],
+    partial: bool,
+    report: &mut Report,
+) -> Option<Rc<Node>> {
     let known = report.faults.len();
     let mut root = root;
     let shape = super::shape();
@@ -33,7 +40,9 @@ pub(crate) fn apply(root: Rc<Node>, overrides: &[(String, String)], report: &mut
         if keys.first().is_some_and(short) {
             shorthand::make_way(Rc::make_mut(&mut root));
         }
-        if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value) {
+        if let Err((what, hint)) = argument.set(Rc::make_mut(&mut root), Some(&shape), &keys, value)
+            && !partial
+        {
             report.fault(argument.place(), what, hint);
         }
     }
@@ -86,7 +95,7 @@ impl Argument {
         match &mut node.content {
             Content::Scalar { text, .. } => {
                 let what = format!("there is the text `{text}` here, which has no `{key}`");
-                Err((what, EXAMPLES.to_owned()))
+                Err((what, self.whole(text, shape, keys).unwrap_or_else(|| EXAMPLES.to_owned())))
             }
             Content::List(items) if *key == "+" => {
                 items.push(self.made(shape.and_then(item_shape).as_ref(), rest, value)?);
@@ -123,6 +132,21 @@ impl Argument {
         }
     }
 
+    /// What to type where there is a text that stands for one key of a map, and another key of that map is meant.
+    fn whole(&self, text: &str, shape: Option<&Shape>, keys: &[&str]) -> Option<String> {
+        let (key, within) = keys.split_first()?;
+        let record = shape.and_then(|shape| record_with(shape, key))?;
+        let fields = (record.fields)();
+        let stands_for = |field: &&Field| field.presence == Presence::Required || field.key == "file";
+        let mut meant = fields.iter().filter(stands_for);
+        let first = meant.next().filter(|first| meant.next().is_none() && first.key != *key)?;
+        let path = self.shown.get(self.keys..self.keys + self.length)?;
+        let above = path.strip_suffix(&keys.join("."))?.strip_suffix('.')?;
+        let value = self.shown.get(self.keys + self.length + 1..)?;
+        let value = within.iter().rev().fold(value.to_owned(), |value, key| format!("{{ {key}: {value} }}"));
+        Some(format!("--set {above}=\"{{ {}: {text}, {key}: {value} }}\"", first.key))
+    }
+
     fn made(&self, shape: Option<&Shape>, keys: &[&str], value: Rc<Node>) -> Result<Rc<Node>, Wrong> {
         self.filled(Node::new(self.place(), Content::Map(Vec::new())), shape, keys, value)
     }
@@ -136,6 +160,15 @@ impl Argument {
     ) -> Result<Rc<Node>, Wrong> {
         self.set(&mut node, shape, keys, value)?;
         Ok(node.into())
+    }
+}
+
+/// The map with this key that something of a shape may be.
+fn record_with(shape: &Shape, key: &str) -> Option<RecordShape> {
+    match shape {
+        Shape::Record(record) if (record.fields)().iter().any(|field| field.key == key) => Some(*record),
+        Shape::Either(shapes) => shapes.iter().find_map(|shape| record_with(shape, key)),
+        _ => None,
     }
 }
 

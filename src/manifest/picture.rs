@@ -1,14 +1,18 @@
 //! What pictures are like.
 
+use super::Spanned;
 use super::light::{Amount, Luminance};
 use super::node::Node;
-use super::plain::{Count, Real, Switch, whole, words};
+use super::plain::{Count, Placed, Real, Switch, whole, words};
 use super::quantity::Written;
 use super::reader::{Read, Reader};
 use super::record::{Kind, Shape, record};
+use crate::error::Place;
 
 /// Most pixels of a picture.
 const MOST_PIXELS: u64 = 1 << 28;
+/// The size unless it is said.
+pub(crate) const USUAL_SIZE: &str = "1280 720";
 /// Greatest width and height.
 const LONGEST_SIDE: u32 = 65_536;
 words! {
@@ -77,7 +81,7 @@ impl Kind for Size {
         Shape::Text("width and height in pixels, as in 1280 720")
     }
     fn read(node: &Node, reader: &mut Reader<'_>) -> Read<(u32, u32)> {
-        let text = reader.text(node, "a size", "1280 720")?;
+        let text = reader.text(node, "a size", USUAL_SIZE)?;
         if let Some((width, height)) = text.split_once(['x', '×'])
             && !Written::of(width).numbers.is_empty()
         {
@@ -86,7 +90,7 @@ impl Kind for Size {
         }
         let numbers = reader.bare(node, "a size", 2)?;
         let sides: Option<Vec<u32>> = numbers.iter().map(|side| whole(*side, 1, LONGEST_SIDE)).collect();
-        let hint = reader.typed("1280 720");
+        let hint = reader.typed(USUAL_SIZE);
         match sides.as_deref() {
             Some(&[width, height]) if u64::from(width) * u64::from(height) <= MOST_PIXELS => {
                 Ok((width, height))
@@ -179,7 +183,7 @@ record! {
     /// What each picture is like.
     pub Picture, "the picture" {
         /// Width and height in pixels: 1280 720 unless said.
-        size: (u32, u32) = Size, default((1280, 720)), "1280 720";
+        size: Spanned<(u32, u32)> = Placed<Size>, default(Spanned { value: (1280, 720), place: Place::Command }), "1280 720";
         /// Sight rays for each pixel: 4 unless said; 1 is the pixel's centre.
         samples: u32 = Count<1, 65_536>, default(4), "16";
         /// How often light is followed, from mirror to mirror and through glass: 8 unless said.
@@ -201,6 +205,13 @@ record! {
         /// How far above white light is still told apart, in factors of two: the more, the flatter the picture. 0 cuts off at white;
         /// `auto` (unless said) goes by what is brightest in the whole film.
         headroom: Option<f64> = Headroom, default(None), "8";
+    }
+}
+
+impl Picture {
+    /// Where its size is said, or would be.
+    pub fn size_place(&self) -> &Place {
+        if self.size.place == Place::Command { &self.place } else { &self.size.place }
     }
 }
 

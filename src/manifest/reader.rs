@@ -62,6 +62,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) materials: Names<Material>,
     /// What could be read of things that stand in files, whatever else has faults.
     pub(crate) rest: Rest,
+    /// Whether a manifest that this one extends could not be had: what is missing here may be there.
+    pub(crate) partial: bool,
     keys: Vec<String>,
     /// What stands before and after the part of a text that is being read.
     around: (String, String),
@@ -82,6 +84,7 @@ impl<'a> Reader<'a> {
             spectra: Names::default(),
             materials: Names::default(),
             rest: Rest::default(),
+            partial: false,
             keys: Vec::new(),
             around: (String::new(), String::new()),
         }
@@ -115,6 +118,16 @@ impl<'a> Reader<'a> {
             fault.also.push((other.clone(), there.to_owned()));
         }
         Reported
+    }
+
+    /// Reports that something is missing, unless it may be in a manifest that could not be had.
+    pub(crate) fn missing(
+        &mut self,
+        place: &Place,
+        what: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Reported {
+        if self.partial { Reported } else { self.fault(place, what, hint) }
     }
 
     /// Whether names that were probably meant are still looked for: not after very many faults.

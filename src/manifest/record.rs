@@ -141,10 +141,12 @@ impl<'n> Entries<'n> {
             reader.fault(&entry.key_place, what, "");
             return;
         }
-        let nearest = nearest_name(&entry.key, fields.iter().map(|field| field.key));
+        let keys = || fields.iter().map(|field| field.key);
+        let nearest = nearest_name(&entry.key, keys()).or_else(|| other_word(&entry.key, keys));
         let nearest = nearest.filter(|key| self.get(key).is_none());
-        let hint = match nearest {
-            Some(key) => format!("did you mean `{key}`? {}", keys_hint::<R>()),
+        let hint = match nearest.map(|key| (key, in_argument(entry, key))) {
+            Some((_, Some(argument))) => argument,
+            Some((key, None)) => format!("did you mean `{key}`? {}", keys_hint::<R>()),
             None => keys_hint::<R>(),
         };
         self.meant.extend(nearest);
@@ -203,7 +205,7 @@ impl<'n> Entries<'n> {
             None if self.is_meant(key) => Err(Reported),
             None => {
                 let what = format!("{title} needs `{key}`");
-                Err(reader.fault(&self.node.place, what, format!("{key}: {example}")))
+                Err(reader.missing(&self.node.place, what, format!("{key}: {example}")))
             }
         }
     }
@@ -225,7 +227,7 @@ impl<'n> Entries<'n> {
                 let hint = fields
                     .first()
                     .map_or_else(String::new, |field| format!("{}: {}", field.key, field.example));
-                Err(reader.fault(&self.node.place, format!("{title} needs one of {keys}"), hint))
+                Err(reader.missing(&self.node.place, format!("{title} needs one of {keys}"), hint))
             }
             [one] => Ok(Some(one.key)),
             [first, second, ..] => {
@@ -239,6 +241,46 @@ impl<'n> Entries<'n> {
             }
         }
     }
+}
+
+/// What is said elsewhere, and the keys that are meant by it.
+const OTHER_WORDS: [(&str, &[&str]); 22] = [
+    ("fov", &["field_of_view"]),
+    ("angle", &["field_of_view"]),
+    ("colour", &["color", "diffuse", "spectrum"]),
+    ("color", &["diffuse", "spectrum"]),
+    ("rgb", &["diffuse", "spectrum"]),
+    ("position", &["at"]),
+    ("location", &["at"]),
+    ("translation", &["at"]),
+    ("time", &["at_time", "at"]),
+    ("speed", &["velocity"]),
+    ("beta", &["velocity"]),
+    ("target", &["look_at"]),
+    ("resolution", &["size"]),
+    ("width", &["size"]),
+    ("height", &["size"]),
+    ("spp", &["samples"]),
+    ("fps", &["rate"]),
+    ("frames", &["count"]),
+    ("model", &["asset"]),
+    ("camera", &["observer"]),
+    ("objects", &["bodies"]),
+    ("background", &["surroundings"]),
+];
+
+/// The key that is meant by a word of other programs, if it is one of these.
+fn other_word<I: Iterator<Item = &'static str>>(word: &str, keys: impl Fn() -> I) -> Option<&'static str> {
+    let meant = OTHER_WORDS.iter().find(|(other, _)| word.eq_ignore_ascii_case(other))?.1;
+    meant.iter().find_map(|meant| keys().find(|key| key == meant))
+}
+
+/// The argument with another key in place of the last of its path, if the key stands there.
+fn in_argument(entry: &Entry, key: &str) -> Option<String> {
+    let Place::Argument { text, span } = &entry.key_place else { return None };
+    let above = text.get(..span.end)?.strip_suffix(entry.key.as_str())?;
+    Some(format!("{above}{key}{}", text.get(span.end..)?))
+        .filter(|_| above.ends_with('.') || above.ends_with(' '))
 }
 
 /// The keys of a map, to be shown.

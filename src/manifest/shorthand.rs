@@ -133,7 +133,8 @@ pub(super) fn make_way(root: &mut Node) {
 
 /// Faults what a shorthand says already.
 pub(super) fn check(root: &Node, reader: &mut Reader<'_>) -> Read<()> {
-    let Some((key, short)) = KEYS.into_iter().find_map(|key| Some((key, root.get(key)?))) else {
+    let said = |key| root.get(key).filter(|value| !value.is_nothing());
+    let Some((key, short)) = KEYS.into_iter().find_map(|key| Some((key, said(key)?))) else {
         return Ok(());
     };
     let says = (&short.place, "said here");

@@ -45,7 +45,8 @@ impl Manifest {
     /// Columns of what one eye sees.
     pub fn eye_width(&self) -> u32 {
         let halved = self.observer.stereo.as_ref().is_some_and(|eyes| eyes.layout == Layout::SideBySide);
-        if halved { self.picture.size.0 / 2 } else { self.picture.size.0 }
+        let (width, _) = self.picture.size.value;
+        if halved { width / 2 } else { width }
     }
 }
 
@@ -56,9 +57,9 @@ pub(super) fn check(manifest: &Manifest, report: &mut Report) {
         let what = "to the sides of a panorama one eye would be behind the other";
         report.fault(eyes.place.clone(), what, "lens: fisheye, or remove `stereo`");
     }
-    let (width, height) = manifest.picture.size;
+    let (width, height) = manifest.picture.size.value;
     if eyes.layout == Layout::SideBySide && width % 2 == 1 {
         let what = format!("a picture {width} pixels wide has no halves for two eyes");
-        report.fault(manifest.picture.place.clone(), what, format!("size: {} {height}", width + 1));
+        report.fault(manifest.picture.size_place().clone(), what, format!("size: {} {height}", width + 1));
     }
 }

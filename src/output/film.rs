@@ -34,23 +34,61 @@ impl FilmKind {
         }
     }
 
-    /// Why a film of this kind, size and rate cannot be, if that is so: the fault and what to do.
-    pub fn refusal(self, (width, height): (u32, u32), rate: f64) -> Option<(String, &'static str)> {
+    /// Why a film of this kind, size and rate cannot be, if that is so.
+    pub fn refusal(self, (width, height): (u32, u32), rate: f64) -> Option<Refusal> {
         let (long, short) = (width.max(height), width.min(height));
-        let another = "choose another size, or write `film: { video: off }` for pictures alone";
-        let size = |bounds: &str| (format!("a film cannot be {width} x {height} pixels ({bounds})"), another);
+        let size = |bounds: &str, (width_then, height_then): (u32, u32)| Refusal {
+            of: Refused::Size,
+            what: format!("a film cannot be {width} x {height} pixels ({bounds})"),
+            hint: format!("size: {width_then} {height_then}, or `film: {{ video: off }}` for pictures alone"),
+        };
         match self {
             Self::Mp4 => {
                 let fits = short >= movie::SMALLEST && long <= movie::LARGEST.0 && short <= movie::LARGEST.1;
-                (!fits).then(|| size("16 x 16 to 3840 x 2160"))
+                (!fits).then(|| size("16 x 16 to 3840 x 2160", filmed_size((width, height))))
             }
-            Self::Gif if rate > FASTEST_GIF => {
-                let what = format!("a GIF cannot show {rate} pictures a second (at most 50)");
-                Some((what, "write a rate of 50 at most, or another kind of film"))
+            Self::Gif if rate > FASTEST_GIF => Some(Refusal {
+                of: Refused::Rate,
+                what: format!("a GIF cannot show {rate} pictures a second (at most 50)"),
+                hint: "rate: 50, or another kind of film".to_owned(),
+            }),
+            Self::Gif | Self::Avi => {
+                let most = |side: u32| side.min(LONGEST_SIDE);
+                (long > LONGEST_SIDE).then(|| size("at most 65535 a side", (most(width), most(height))))
             }
-            Self::Gif | Self::Avi => (long > LONGEST_SIDE).then(|| size("at most 65535 a side")),
         }
     }
+}
+
+/// The size nearest to one that an MP4 film can have, of the same shape if there is one.
+fn filmed_size((width, height): (u32, u32)) -> (u32, u32) {
+    let (long, short) = (f64::from(width.max(height)), f64::from(width.min(height)));
+    let (longest, across) = (f64::from(movie::LARGEST.0), f64::from(movie::LARGEST.1));
+    let scale = (longest / long).min(across / short).min(1.0).max(f64::from(movie::SMALLEST) / short);
+    // Even sides, as films have them.
+    let side =
+        |side: f64| (2.0 * (0.5 * side * scale).round()).clamp(f64::from(movie::SMALLEST), longest) as u32;
+    (side(width.into()), side(height.into()))
+}
+
+/// Why a film cannot be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// What it is about.
+    pub of: Refused,
+    /// What is wrong.
+    pub what: String,
+    /// What to type.
+    pub hint: String,
+}
+
+/// What a film cannot have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refused {
+    /// Its width and height.
+    Size,
+    /// Its pictures a second.
+    Rate,
 }
 
 /// A film in the making: [`push`](Self::push) every picture, then [`finish`](Self::finish), before which no file stands

@@ -25,12 +25,12 @@ pub use self::avi::Avi;
 pub use self::bmp::{read_bmp, write_bmp};
 pub use self::exr::{Channel, ExrForm, Measured, check_exr, exr_texts, write_exr};
 pub use self::false_color::{Scale, false_color, height_with_legend};
-pub use self::film::{FilmKind, Making};
+pub use self::film::{FilmKind, Making, Refusal, Refused};
 pub use self::gif::Gif;
 pub use self::movie::Movie;
 pub use self::png::{Picture8, Picture16, ReadPng, eight_of, png_texts, read_png, write_png, write_png16};
 
-use crate::error::Error;
+use crate::error::{Error, Place};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -53,6 +53,19 @@ pub fn write_whole(
     // So that its name is on the disk too. Where folders cannot be opened, that is so anyway, or cannot be helped.
     let _ = path.parent().map(File::open).map(|folder| folder.and_then(|folder| folder.sync_all()));
     Ok(())
+}
+
+/// Makes a folder if it is not there. A fault where a file has its name.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    if folder.is_file() {
+        let what = "the pictures cannot go there: this is a file, not a folder";
+        return Err(Error::fault(
+            Place::file(folder),
+            what,
+            "--out FOLDER, the name of a folder, new or not",
+        ));
+    }
+    fs::create_dir_all(folder).map_err(|source| Error::machine(folder, "creating the folder", source))
 }
 
 /// Removes what a process that was killed has left of files of these names. (Nobody may be writing them.)

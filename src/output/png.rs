@@ -77,7 +77,11 @@ pub struct ReadPng {
 /// to its last byte.
 pub fn read_png(path: &Path, size: (u32, u32)) -> Result<ReadPng, Error> {
     let read = || -> io::Result<ReadPng> {
-        let mut reader = png::Decoder::new(BufReader::new(File::open(path)?)).read_info()?;
+        // The texts too: usually what is not of the picture is passed over if its sum is wrong.
+        let mut options = png::DecodeOptions::default();
+        options.set_skip_ancillary_crc_failures(false);
+        let file = BufReader::new(File::open(path)?);
+        let mut reader = png::Decoder::new_with_options(file, options).read_info()?;
         let (kind, depth, found) = (reader.info().color_type, reader.info().bit_depth, reader.info().size());
         let sixteen = depth == png::BitDepth::Sixteen;
         let known = kind == png::ColorType::Rgb && (sixteen || depth == png::BitDepth::Eight);

@@ -131,12 +131,13 @@ impl Plan {
     pub fn of(manifest: &Manifest, scene: &Scene, path: &Path, report: &mut Report) -> Self {
         let stem = path.file_stem().map_or_else(|| "film".into(), |stem| stem.to_string_lossy());
         let picture = &manifest.picture;
+        let (width, height) = picture.size.value;
         let film = manifest.film.as_ref().filter(|film| film.video);
         let files = film.map(|film| film.file.clone()).filter(|files| !files.is_empty());
         let files = files.unwrap_or_else(|| vec![format!("{stem}.mp4")]);
         let exposures = exposures(manifest, scene);
         let film_files = outputs::films(film, files, exposures.len(), manifest, report);
-        let film_rate = film.map(|film| film.rate).filter(|_| !film_files.is_empty());
+        let film_rate = film.map(|film| film.rate.value).filter(|_| !film_files.is_empty());
         limits::check(manifest, scene, &exposures, report);
         let outputs = Outputs::of(&manifest.output);
         outputs::check_spectrum(manifest, &outputs, report);
@@ -144,8 +145,8 @@ impl Plan {
         Self {
             exposures,
             sampling: Sampling {
-                width: picture.size.0,
-                height: picture.size.1,
+                width,
+                height,
                 samples: picture.samples,
                 reconstruction: match picture.filter {
                     Filter::Gaussian => Reconstruction::Gaussian,
@@ -175,7 +176,7 @@ impl Plan {
 /// The exposures of a camera's animation: from its first key to its last.
 fn of_animation(manifest: &Manifest, (from, to): (f64, f64), scene: &Scene) -> Vec<Exposure> {
     let seconds = (to - from) / manifest.light_speed;
-    let rate = manifest.film.as_ref().map_or(24.0, |film| film.rate);
+    let rate = manifest.film.as_ref().map_or(24.0, |film| film.rate.value);
     let written = &manifest.exposures;
     let count = if written.counted { f64::from(written.count) } else { (seconds * rate).round() + 1.0 };
     let count = if to > from { count.clamp(1.0, MOST_OF_ANIMATION) as usize } else { 1 };

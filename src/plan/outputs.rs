@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::error::Report;
 use crate::manifest::{self, Depth, Layer};
-use crate::output::{FilmKind, exposure_name, movie};
+use crate::output::{FilmKind, Refusal, Refused, exposure_name, movie};
 use std::path::PathBuf;
 
 /// A file that an exposure has. The last one in order is written last: with it the exposure is there.
@@ -97,16 +97,22 @@ pub(super) fn films(
     report: &mut Report,
 ) -> Vec<String> {
     let Some(film) = film.filter(|_| exposures > 1) else { return Vec::new() };
-    let place = &manifest.picture.place;
     if !movie::AVAILABLE && files.iter().any(|file| FilmKind::of(file) == Some(FilmKind::Mp4)) {
         let hint = "write a GIF or AVI film, or join the pictures with another program, such as ffmpeg";
-        report.warn(place.clone(), "this build writes no MP4 films, only their pictures", hint);
+        report.warn(film.place.clone(), "this build writes no MP4 films, only their pictures", hint);
         files.retain(|file| FilmKind::of(file) != Some(FilmKind::Mp4));
     }
     files.retain(|file| {
-        let refusal = FilmKind::of(file).and_then(|kind| kind.refusal(manifest.picture.size, film.rate));
-        if let Some((what, hint)) = &refusal {
-            report.fault(place.clone(), what.clone(), *hint);
+        let size = manifest.picture.size.value;
+        let refusal = FilmKind::of(file).and_then(|kind| kind.refusal(size, film.rate.value));
+        match &refusal {
+            Some(Refusal { of: Refused::Size, what, hint }) => {
+                report.fault(manifest.picture.size_place().clone(), what, hint);
+            }
+            Some(Refusal { of: Refused::Rate, what, hint }) => {
+                report.fault(film.rate.place.clone(), what, hint);
+            }
+            None => {}
         }
         refusal.is_none()
     });

@@ -32,7 +32,7 @@ pub(super) struct Folder {
 
 /// Makes the folder ready for some exposures of the film.
 ///
-/// Faults: pictures of another film that are there, unless the plan says to begin anew.
+/// Faults: pictures of another film that are there, unless the plan says to begin anew, and pictures that are not from here.
 ///
 /// None if it was stopped while another process was waited for.
 pub(super) fn open(
@@ -41,9 +41,8 @@ pub(super) fn open(
     stop: &Stop,
     tell: &mut impl FnMut(Step),
 ) -> Result<Option<Folder>, Error> {
-    std::fs::create_dir_all(&plan.folder)
-        .map_err(|source| Error::machine(&plan.folder, "creating the folder", source))?;
-    let own = plan.fingerprint().filter(|_| !plan.restart);
+    output::make_folder(&plan.folder)?;
+    let own = plan.fingerprint();
     if let Some(own) = &own {
         // Before waiting, and again when nobody else writes.
         refuse_others(plan, own, &there(plan)?)?;
@@ -61,6 +60,8 @@ pub(super) fn open(
     let mut kept = BTreeSet::new();
     if let Some(own) = &own {
         refuse_others(plan, own, &there)?;
+    }
+    if let Some(own) = own.as_ref().filter(|_| !plan.restart) {
         let ours = there.iter().filter(|one| chosen.contains(&one.index) && one.is_of(plan, own));
         let named: BTreeSet<(usize, Picture)> = ours.map(|one| (one.index, one.picture)).collect();
         let texted: Vec<Picture> =
@@ -69,7 +70,7 @@ pub(super) fn open(
         let complete: Vec<usize> = chosen.clone().filter(complete).collect();
         kept = complete.into_par_iter().filter(|index| files::are_whole(plan, *index)).collect();
     } else if chosen.len() == plan.exposures.len() {
-        remove_others(plan.fingerprint().as_ref(), &there)?;
+        remove_others(own.as_ref(), &there)?;
     }
     Ok(Some(Folder { kept, _lock: lock }))
 }
@@ -205,7 +206,7 @@ pub(super) fn count(plan: &Plan, exposures: &[Exposure]) -> usize {
     exposures.iter().filter(|exposure| plan.picture(exposure.index, Picture::Png).is_file()).count()
 }
 
-/// A fault if pictures of another film are there.
+/// A fault if pictures of another film are there; if it is begun anew, only of what this program has not made.
 fn refuse_others(plan: &Plan, own: &Fingerprint, there: &[There]) -> Result<(), Error> {
     let film: BTreeSet<PathBuf> = plan
         .exposures
@@ -215,7 +216,7 @@ fn refuse_others(plan: &Plan, own: &Fingerprint, there: &[There]) -> Result<(), 
         })
         .collect();
     let other = there.iter().find(|one| match &one.fingerprint {
-        Some(other) => other != own,
+        Some(other) => other != own && !plan.restart,
         None => film.contains(&one.path),
     });
     let Some(other) = other else { return Ok(()) };

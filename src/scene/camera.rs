@@ -2,7 +2,7 @@
 
 use super::Placement;
 use super::models::Models;
-use crate::error::{Place, Report, nearest_name};
+use crate::error::{Place, Report, by_nearness, nearest_name};
 use crate::filmed::Filmed;
 use crate::import::{self, Animation, Asset, Interpolation, Moving, Rig};
 use crate::lens::Lens;
@@ -116,9 +116,10 @@ fn find<'a>(written: &manifest::Camera, asset: &'a Asset, report: &mut Report) -
             (format!("`{path}` has no camera"), "export the model with its cameras".to_owned())
         }
         ([], Some(said)) => {
+            let all = by_nearness(&said.value, &names).join(", ");
             let hint = match nearest_name(&said.value, names.iter().copied()) {
-                Some(nearest) => format!("did you mean `{nearest}`?"),
-                None => format!("its cameras are: {}", names.join(", ")),
+                Some(nearest) => format!("did you mean `{nearest}`? its cameras are: {all}"),
+                None => format!("its cameras are: {all}"),
             };
             (format!("`{path}` has no camera named `{}`", said.value), hint)
         }
@@ -126,7 +127,10 @@ fn find<'a>(written: &manifest::Camera, asset: &'a Asset, report: &mut Report) -
             let what = format!("{} cameras of `{path}` are named `{}`", found.len(), said.value);
             (what, "give the one meant a name of its own in the model".to_owned())
         }
-        (_, None) => (format!("`{path}` has {} cameras", names.len()), format!("name: {}", names[0])),
+        (_, None) => {
+            let what = format!("`{path}` has {} cameras", names.len());
+            (what, format!("name: {} (its cameras are: {})", names[0], names.join(", ")))
+        }
     };
     let place = said.map_or(&written.place, |said| &said.place);
     report.fault(place.clone(), what, hint);
@@ -153,7 +157,7 @@ fn lens(
         );
         return None;
     };
-    let (width, height) = (manifest.eye_width(), manifest.picture.size.1);
+    let (width, height) = (manifest.eye_width(), manifest.picture.size.value.1);
     let half = libm::tan(0.5 * vertical) * f64::from(width) / f64::from(height);
     Some(Lens::Pinhole { across: 2.0 * libm::atan(half) })
 }

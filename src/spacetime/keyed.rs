@@ -1,6 +1,7 @@
 //! Paths through places at given times: their velocity at every moment, their own time, and how fast they are at most.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// The greatest Lorentz factor of a path through keys: γ comes from a β there, and its last digit is a part 1e-7 of it.
 const GREATEST_GAMMA: f64 = 1e4;
@@ -59,7 +60,7 @@ impl Track {
     pub fn through(keys: &[(f64, DVec3)]) -> Result<Self, Vec<TooFast>> {
         let pieces = pieces(keys);
         let too_fast: Vec<TooFast> = pieces
-            .iter()
+            .par_iter()
             .enumerate()
             .map(|(number, piece)| {
                 let (speed, at) = piece.fastest();
@@ -76,9 +77,13 @@ impl Track {
             _ => [(place, DVec3::ZERO); 2],
         };
         let mut clock = vec![(start, 0.0)];
-        for piece in &pieces {
-            piece.tick(&mut clock);
-        }
+        // Of a hundred thousand keys these take a second, so each is found by itself, and then they are added up.
+        let ticks: Vec<Vec<(f64, f64)>> = pieces.par_iter().map(Piece::ticks).collect();
+        let mut own = 0.0;
+        clock.extend(ticks.into_iter().flatten().map(|(to, lasts)| {
+            own += lasts;
+            (to, own)
+        }));
         let mut track = Self { pieces, clock, ends };
         let zero = track.own(0.0);
         track.clock.iter_mut().for_each(|(_, own)| *own -= zero);
@@ -220,22 +225,22 @@ impl Piece {
         (sum * half, slowest)
     }
 
-    /// Adds the own times at its ends to the table, and as many between as make the rule exact to rounding.
-    fn tick(&self, clock: &mut Vec<(f64, f64)>) {
-        let mut waiting = vec![(self.from, self.to, 0)];
-        while let Some((from, to, depth)) = waiting.pop() {
+    /// Its times from one to the next, each with the own time that it lasts: as many as make the rule exact to rounding.
+    fn ticks(&self) -> Vec<(f64, f64)> {
+        let mut ticks = Vec::new();
+        let mut waiting = vec![(self.from, self.to, self.measured(self.from, self.to), 0)];
+        while let Some((from, to, (whole, slowest), depth)) = waiting.pop() {
             let middle = 0.5 * (from + to);
-            let (whole, slowest) = self.measured(from, to);
-            let halves = self.length(from, middle) + self.length(middle, to);
+            let (early, late) = (self.measured(from, middle), self.measured(middle, to));
             let rounding = (to - from) * f64::EPSILON * (8.0 + 4.0 / slowest);
             let divisible = from < middle && middle < to && depth < 16;
-            if divisible && !((whole - halves).abs() <= rounding) {
-                waiting.extend([(middle, to, depth + 1), (from, middle, depth + 1)]);
+            if divisible && !((whole - (early.0 + late.0)).abs() <= rounding) {
+                waiting.extend([(middle, to, late, depth + 1), (from, middle, early, depth + 1)]);
                 continue;
             }
-            let own = clock.last().map_or(0.0, |(_, own)| *own);
-            clock.push((to, own + whole));
+            ticks.push((to, whole));
         }
+        ticks
     }
 
     /// A bound of its speed that is reached to a part 1e-9, and where.

@@ -255,6 +255,36 @@ mod tests {
     use super::*;
 
     #[test]
+    fn daylight_of_many_wavelengths_at_once_is_the_table_within_it_and_a_black_body_beyond() {
+        let rows: Vec<(f64, f64)> =
+            rows::<2>(include_str!("d65.csv")).into_iter().map(|[nm, value]| (nm, value)).collect();
+        let table = Table::new(rows).unwrap();
+        let exact = |nm: f64| match table.range() {
+            (first, _) if nm < first => table.at(first) * planck(nm, 6504.0) / planck(first, 6504.0),
+            (_, last) if nm > last => table.at(last) * planck(nm, 6504.0) / planck(last, 6504.0),
+            _ => table.at(nm),
+        };
+        // Below, within and above, in turn, so that lanes do not share what they are; and all of one kind.
+        let mixed: [f64; 16] = std::array::from_fn(|i| 120.0 + 97.3 * ((7 * i) % 16) as f64);
+        let within: [f64; 16] = std::array::from_fn(|i| 300.0 + 33.1 * i as f64);
+        let above: [f64; 16] = std::array::from_fn(|i| 831.0 + 250.0 * i as f64);
+        let (daylight, reflectance) = (&*D65, Reflectance::Rgb([0.8, 0.3, 0.1]));
+        let filtered = Filtered::new([0.8, 0.3, 0.1]);
+        for nm in [mixed, within, above] {
+            let (mut sum, mut coloured) = ([1.0; 16], [1.0; 16]);
+            daylight.add_each(&mut sum, &nm, 2.0);
+            filtered.add_each(&mut coloured, &nm, 2.0);
+            for (i, nm) in nm.into_iter().enumerate() {
+                let whole = 2.0 * exact(nm);
+                assert!((sum[i] - 1.0 - whole).abs() < 1e-9 * (1.0 + whole), "{nm} nm: {} {whole}", sum[i]);
+                let part = whole * reflectance.at(nm);
+                assert!((coloured[i] - 1.0 - part).abs() < 1e-9 * (1.0 + whole), "{nm} nm: {}", coloured[i]);
+                assert!((daylight.at(nm) - exact(nm)).abs() < 1e-9 * (1.0 + whole), "{nm} nm");
+            }
+        }
+    }
+
+    #[test]
     fn narrowest_peak_is_found_between_broad_ones_and_ripples_are_none() {
         let table = |rows: &[(f64, f64)]| Table::new(rows.iter().copied()).unwrap().narrowest_peak_nm();
         let broad = [(400.0, 0.0), (500.0, 2.0), (600.0, 0.0)];

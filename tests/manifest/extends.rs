@@ -227,6 +227,85 @@ fn items_that_are_not_in_the_list_are_faults_with_the_nearest_name() {
 }
 
 #[test]
+fn an_item_that_is_changed_by_name_and_by_number_is_a_fault_with_both_places() {
+    let change = |lines: &str| format!("extends: base.yaml\nbodies:\n{lines}");
+    let files = Files::of(&[
+        ("base.yaml", BASE),
+        ("m.yaml", &change("  ball: { scale: 2 }\n  1: { scale: 3 }\n  0: { at: 0 0 0 m }\n")),
+        ("n.yaml", &change("  2: ~\n  right: { scale: 2 }\n")),
+        ("sound.yaml", &change("  ball: { scale: 2 }\n  1: { scale: 3 }\n  right: ~\n")),
+    ]);
+    assert_eq!(files.sound("sound.yaml").0.bodies.len(), 2);
+    for (name, line, other, what) in [
+        ("m.yaml", 5, 3, "`ball` and `0` are the same item"),
+        ("n.yaml", 4, 3, "`2` and `right` are the same item"),
+    ] {
+        let (_, report) = files.read(name);
+        let [fault] = &report.faults[..] else { panic!("{:?}", report.faults) };
+        assert!(fault.what.contains(what), "{fault}");
+        assert_eq!(fault.place.line_column().unwrap().0, line, "{fault}");
+        assert_eq!(fault.also[0].0.line_column().unwrap().0, other, "{fault}");
+    }
+}
+
+#[test]
+fn a_manifest_that_is_missing_hides_no_other_fault_and_makes_none() {
+    // All that could be in the missing one is taken to be there; what is wrong in itself is told.
+    let sound = "\
+bodies: { ball: { velocity: 0 0 0.9 c }, 3: ~, +: [{ asset: cube }] }
+lights: { 0: { lamp: { spectrum: sodium } } }
+materials: { red: { gloss: { base: blue } }, glass: { glass: { index: 1.5, distance: 1 cm } } }
+turntable: { around: ball }
+observer: { field_of_view: 220 deg }
+exposures: { count: 7 }
+picture: { size: 64 64 }
+";
+    let wrong = "\
+observer: { look_at: ball, up: 0 0 0 }
+picture: { samples: 0 }
+exposures: { to: 1 s }
+assets: { cube: { box: { size: 2 } } }
+colour: red
+";
+    let files = Files::of(&[
+        ("sound.yaml", &format!("extends: absent.yaml\n{}", sound.replace("exposures: { count: 7 }\n", ""))),
+        ("wrong.yaml", &format!("extends: [absent.yaml, part.yaml]\n{wrong}")),
+        ("part.yaml", "film: { rate: 0 }\n"),
+        ("broken.yaml", "extends: torn.yaml\nobserver: { up: 0 0 0 }\n"),
+        ("torn.yaml", "observer: [\n"),
+    ]);
+    let lines = |name: &str| -> Vec<(String, usize)> {
+        files.faults(name).into_iter().map(|(file, line, _)| (file, line)).collect()
+    };
+    let at = |places: &[(&str, usize)]| -> Vec<(String, usize)> {
+        places.iter().map(|(file, line)| ((*file).to_owned(), *line)).collect()
+    };
+    assert_eq!(lines("sound.yaml"), at(&[("sound.yaml", 1)]), "{:?}", files.faults("sound.yaml"));
+    let wrong: Vec<_> = (1..=6).filter(|line| *line != 4).map(|line| ("wrong.yaml", line)).collect();
+    assert_eq!(lines("wrong.yaml"), at(&[&wrong[..], &[("part.yaml", 1)]].concat()));
+    assert_eq!(lines("broken.yaml"), at(&[("broken.yaml", 2), ("torn.yaml", 2)]));
+    // A change that may be one of the missing part is none of the faults.
+    let mut report = Report::default();
+    let set = [("bodies.ball.scale".to_owned(), "2".to_owned())];
+    manifest::load_with(&files.path("sound.yaml"), &set, &mut report);
+    assert_eq!(report.faults.len(), 1, "{:?}", report.faults);
+}
+
+#[test]
+fn a_shorthand_that_is_taken_away_says_nothing() {
+    let files = Files::of(&[
+        ("base.yaml", BASE),
+        ("m.yaml", &format!("turntable: ~\n{}", BASE.replace("output: out/base", "output: out/m"))),
+        ("n.yaml", "extends: base.yaml\nturntable: ~\n"),
+    ]);
+    // There is none to be taken away: that is one fault, and not two.
+    let told = files.faults("m.yaml");
+    assert!(told.len() == 1 && told[0].2.contains("`turntable` has no value"), "{told:?}");
+    let told = files.faults("n.yaml");
+    assert!(told.len() == 1 && told[0].2.contains("`turntable` has no value"), "{told:?}");
+}
+
+#[test]
 fn manifests_extend_one_another_up_to_sixteen_deep() {
     let chain = |count: usize| {
         let mut files: Vec<(String, String)> = (1..count)

@@ -50,6 +50,50 @@ fn keys_and_items_are_taken_away() {
 }
 
 #[test]
+fn a_key_beside_a_text_is_told_as_the_map_in_which_both_stand() {
+    let told = refused("output.png", "16");
+    assert_eq!(
+        told,
+        "there is the text `out` here, which has no `png`; --set output=\"{ folder: out, png: 16 }\""
+    );
+    let m = read_with(TEXT, &[("output", "{ folder: out, png: 16 }")]);
+    assert_eq!(m.output.png, 16);
+    let told = refused("output.exr.depth", "half");
+    assert!(told.ends_with("--set output=\"{ folder: out, exr: { depth: half } }\""), "{told}");
+    // Where no such map is, that there are examples.
+    assert!(refused("observer.up.left", "1").contains("--set observer.velocity="));
+}
+
+#[test]
+fn a_key_that_is_nearly_right_is_told_as_the_whole_argument() {
+    assert!(refused("picture.sample", "16").ends_with("; --set picture.samples=16"));
+    assert!(refused("observer.fov", "40 deg").ends_with("; --set observer.field_of_view=40 deg"));
+    assert!(refused("picture", "{ sample: 16 }").ends_with("; --set picture={ samples: 16 }"));
+}
+
+#[test]
+fn words_of_other_programs_are_understood() {
+    for (text, meant) in [
+        ("observer: { fov: 40 deg }", "field_of_view"),
+        ("materials: { a: { glass: { index: BK7, colour: { rgb: 1 0 0 } } } }", "color"),
+        ("materials: { a: { colour: { rgb: 1 0 0 } } }", "diffuse"),
+        ("picture: { resolution: 64 36 }", "size"),
+        ("picture: { spp: 4 }", "samples"),
+        ("film: { fps: 24 }", "rate"),
+        ("camera: { at: 0 0 5 m }", "observer"),
+        ("objects: []", "bodies"),
+        ("bodies: [{ asset: ball, position: 0 0 0 m }]", "at"),
+    ] {
+        let mut report = Report::default();
+        let text = format!("{{ {text}, assets: {{ ball: {{ sphere: {{ radius: 1 m }} }} }}, output: out }}");
+        manifest::parse(Path::new("m.yaml"), &text, &mut report);
+        let told =
+            report.faults.iter().any(|fault| fault.hint.starts_with(&format!("did you mean `{meant}`?")));
+        assert!(told, "{text}: {:?}", report.faults);
+    }
+}
+
+#[test]
 fn items_are_added() {
     let m =
         read_with(TEXT, &[("bodies.+", "{ asset: ball, name: more }"), ("lights.+.lamp.intensity", "3 cd")]);

@@ -44,8 +44,8 @@ fn the_flyby_means_what_it_says() {
     assert!(matches!(flyby.observer.worldline, Worldline::Rest));
     assert!(close(flyby.observer.field_of_view.unwrap(), 50.0 / 180.0 * PI));
     assert_eq!((flyby.exposures.from, flyby.exposures.to, flyby.exposures.count), (-4.0, 9.0, 96));
-    assert_eq!((flyby.picture.size, flyby.picture.samples), ((1280, 720), 4));
-    assert_eq!(flyby.film.map(|film| film.rate), Some(24.0));
+    assert_eq!((flyby.picture.size.value, flyby.picture.samples), ((1280, 720), 4));
+    assert_eq!(flyby.film.map(|film| film.rate.value), Some(24.0));
     assert_eq!(flyby.output.folder, Path::new("tests/manifests/out/flyby"));
 }
 
@@ -124,7 +124,7 @@ fn what_is_not_said_has_a_meaning() {
         (0.0, 0.0, 1, Clock::Own)
     );
     let p = &m.picture;
-    assert_eq!((p.size, p.samples, p.depth, p.wavelengths), ((1280, 720), 4, 8, 16));
+    assert_eq!((p.size.value, p.samples, p.depth, p.wavelengths), ((1280, 720), 4, 8, 16));
     assert_eq!((p.filter, p.white, p.stops), (Filter::Gaussian, White::Auto, 0.0));
     assert!(matches!(m.observer.view, View::Direction(DVec3::NEG_Z)));
     assert_eq!((m.observer.up, m.observer.placement.rotation), (DVec3::Y, DQuat::IDENTITY));
@@ -221,7 +221,7 @@ fn values_on_the_command_line_take_the_place_of_written_ones() {
     );
     assert!(close(m.observer.placement.velocity.gamma(), 1.25));
     assert_eq!((m.bodies[0].scale, m.bodies[1].placement.at), (DVec3::splat(3.0), DVec3::new(0.0, 0.0, 2.0)));
-    assert_eq!((m.film.map(|film| film.rate), m.picture.samples), (Some(12.0), 2));
+    assert_eq!((m.film.map(|film| film.rate.value), m.picture.samples), (Some(12.0), 2));
     assert_eq!(m.output.folder, Path::new("folder/elsewhere"));
 }
 

@@ -51,7 +51,7 @@ trait Screen {
 }
 
 /// A window or the terminal; a fault if there is none.
-fn screen(place: Where, size: (u32, u32)) -> Result<Box<dyn Screen>, Error> {
+fn screen(place: Where, size: (u32, u32), exposure: usize) -> Result<Box<dyn Screen>, Error> {
     let mut why = Vec::new();
     if place != Where::Terminal {
         match open_window(size) {
@@ -65,7 +65,7 @@ fn screen(place: Where, size: (u32, u32)) -> Result<Box<dyn Screen>, Error> {
             Err(reason) => why.push(reason),
         }
     }
-    let hint = "--exposure 0 --size 320x180 --out FOLDER writes a small picture instead";
+    let hint = format!("--exposure {exposure} --scale 0.25 --out FOLDER writes a small picture instead");
     Err(Error::fault(Place::Command, format!("a preview cannot be shown: {}", why.join(", and ")), hint))
 }
 
@@ -81,8 +81,8 @@ fn open_window(_size: (u32, u32)) -> Result<Box<dyn Screen>, String> {
 
 /// What the one who works tells the one who shows.
 enum News {
-    // A picture of this size is to come: how much of it can be shown?
-    Size((u32, u32), Sender<(u32, u32)>),
+    // A picture of this size is to come, of this exposure: how much of it can be shown?
+    Size { size: (u32, u32), exposure: usize, answer: Sender<(u32, u32)> },
     Picture(Picture, String),
     Text(String),
     Ended(Result<(), Error>),
@@ -140,10 +140,10 @@ fn show(place: Where, inbox: &Receiver<News>, signal: &Stop) -> Result<(), Error
             inbox.recv_timeout(std::time::Duration::from_millis(20)).map_err(|_| TryRecvError::Empty)
         };
         match (news, &mut screen) {
-            (Ok(News::Size(size, answer)), shown) => {
+            (Ok(News::Size { size, exposure, answer }), shown) => {
                 let screen = match shown {
                     Some(screen) => screen,
-                    None => shown.insert(self::screen(place, size)?),
+                    None => shown.insert(self::screen(place, size, exposure)?),
                 };
                 let _ = answer.send(screen.room());
                 continue;

@@ -262,6 +262,61 @@ mod tests {
         DVec3::new(part(0.618_033_988_749), part(0.754_877_666_247), part(0.569_840_290_998))
     }
 
+    /// Draw number `i` of a few between 0 and 1.
+    fn part(i: u32) -> f64 {
+        0.5 + 0.5 * spread(i).x
+    }
+
+    #[test]
+    fn a_ray_meets_what_moves_with_a_box_before_and_after_its_moment_and_passes_what_has_gone_on() {
+        let (mut late, mut missed) = (0, 0);
+        for number in 0..2000_u32 {
+            // One velocity, or a range of them.
+            let range = if number % 2 == 0 { 0.0 } else { 0.6 };
+            let (lo, v_lo) = (0.5 * spread(3 * number), 0.3 * spread(5 * number) - 0.5 * range);
+            let (hi, v_hi) = (lo + 0.1, v_lo + range);
+            let one = Moving { moment: part(7 * number), lo, hi, v_lo, v_hi };
+            let units = Units::around([one].iter());
+            let mut node = Node::EMPTY;
+            let lane = number as usize % 8;
+            node.set(lane, 0, &one, &units);
+            assert_eq!(node.rigid, range == 0.0);
+            // Something in it, at its corners above all, with one of its velocities, met at a time `after` its moment.
+            let after = 4.0 * (2.0 * part(11 * number) - 1.0);
+            let corner = |i: u32| (0.5 + spread(i)).clamp(DVec3::ZERO, DVec3::ONE);
+            let v = v_lo + (v_hi - v_lo) * corner(13 * number);
+            let place = lo + (hi - lo) * corner(17 * number) + v * after;
+            let met = Event::new(one.moment + after, place);
+            let (s, k) =
+                (0.1 + 3.0 * part(19 * number), FourVector::new(1.0, spread(23 * number).normalize()));
+            let from = |met: Event| {
+                let ray = SightRay { event: met + k * s, k };
+                Asked::new(&ray, 10.0, &units).unwrap()
+            };
+            let ray = from(met);
+            let (entries, bits) = node.entries(&ray);
+            let reached = (s * ray.length) as f32;
+            assert!(bits == 1 << lane && entries[lane] <= reached * 1.001 + 1e-3, "{number}: {after}");
+            late += u32::from(after > 0.0);
+            // Light that would meet it where it would be if it had not moved, or had moved the other way, goes by (if it does not
+            // meet it at another time).
+            if range > 0.0 || (v * after).length() < 1.0 {
+                continue;
+            }
+            let elsewhere = from(Event::new(met.t, met.x - 2.0 * v * after));
+            let meets = |s: f64| {
+                let at = Event::new(met.t, met.x - 2.0 * v * after) + k * (3.0 * part(19 * number) + 0.1 - s);
+                let inside = at.x - v * (at.t - one.moment);
+                (lo - 0.01).cmple(inside).all() && inside.cmple(hi + 0.01).all()
+            };
+            if !(0..10_000).any(|i| meets(f64::from(i) * 1e-3)) {
+                assert_eq!(node.entries(&elsewhere).1, 0, "{number}");
+                missed += 1;
+            }
+        }
+        assert!((800..1200).contains(&late) && missed > 20, "{late} {missed}");
+    }
+
     #[test]
     fn all_instruction_sets_enter_the_same_boxes() {
         let mut entered = 0;
