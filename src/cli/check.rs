@@ -151,7 +151,14 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     let lines = !scene.lines.is_empty();
     let sampling = &plan.sampling;
     let mut needs = vec![
-        ("bodies", format!("{} in {} rest frames", manifest.bodies.len(), scene.world.frames.len())),
+        (
+            "bodies",
+            format!(
+                "{} in {} rest frames",
+                manifest.bodies.iter().map(crate::manifest::Body::count).sum::<usize>(),
+                scene.world.frames.len()
+            ),
+        ),
         ("triangles", format!("{shown} shown, {} meshes with a tree each", meshes.len())),
         ("lamps", format!("{}, each with shadows", scene.lamps.len())),
         ("shining", glow_needs(shining)),
