@@ -1,0 +1,3 @@
+//! The gallery's pictures, from the committed manifests: what each of them says that one sees is measured.
+
+mod ours;
