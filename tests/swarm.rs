@@ -1,7 +1,9 @@
 //! A swarm is so many bodies.
 
 use crate::support::{exposed, manifested};
+use terrell::error::Report;
 use terrell::manifest::Placement;
+use terrell::scene::compose;
 
 fn scene(bodies: &str) -> String {
     format!(
@@ -56,4 +58,15 @@ fn bodies_of_a_swarm_depend_on_seed_and_number_alone() {
     assert_eq!(few, many[..10]);
     assert!(few.iter().zip(&others).all(|(a, b)| a.0 != b.0 && a.1 != b.1 && a.2 != b.2));
     assert_eq!(of("", 10), of("seed: 1,", 10));
+}
+
+/// Where all rest together aberration can be left out; a swarm does not.
+#[test]
+fn aberration_of_a_swarm_cannot_be_left_out() {
+    let text = scene("[{ asset: die, swarm: { count: 3, within: 4 m, speed: 0.5 c } }]");
+    let text = text.replace("output: out", "effects: { aberration: off }, output: out");
+    let (path, mut report) = (std::path::Path::new("manifests/swarm.yaml"), Report::default());
+    let manifest = terrell::manifest::parse(path, &text, &mut report).unwrap();
+    assert!(compose(&manifest, path, &mut report).is_none());
+    assert!(report.faults[0].what.contains("move relative to one another"), "{report:?}");
 }
