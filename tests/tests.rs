@@ -57,6 +57,7 @@ mod stereo;
 mod support;
 mod surroundings;
 mod survive;
+mod swarm;
 mod terrell;
 mod texture;
 mod tint;

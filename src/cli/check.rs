@@ -150,6 +150,7 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
     };
     let lines = !scene.lines.is_empty();
     let sampling = &plan.sampling;
+    let bodies: usize = manifest.bodies.iter().map(crate::manifest::Body::count).sum();
     let frames = counted(scene.world.frames.len(), "rest frame", "rest frames");
     let trees = counted(meshes.len(), "mesh with a tree", "meshes with a tree each");
     let lamps = match scene.lamps.len() {
@@ -157,7 +158,7 @@ fn needs(manifest: &Manifest, scene: &Scene, plan: &Plan) -> Vec<(&'static str, 
         lamps => format!("{lamps}, each with shadows"),
     };
     let mut needs = vec![
-        ("bodies", format!("{} in {frames}", manifest.bodies.len())),
+        ("bodies", format!("{bodies} in {frames}")),
         ("triangles", format!("{shown} shown, {trees}")),
         ("lamps", lamps),
         ("shining", glow_needs(shining)),

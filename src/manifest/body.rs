@@ -10,6 +10,7 @@ use super::plain::{FilePath, Placed, Scale, Switch, Text};
 use super::reader::{Read, Reader, instead};
 use super::record::{Entries, Field, Kind, List, Named, Presence, Record, Shape, record};
 use super::solid::{self, Pose, Solid, SolidForm};
+use super::swarm::{self, Swarm};
 use crate::error::Place;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -206,6 +207,8 @@ record! {
         materials: Vec<(Spanned<String>, Arc<Material>)> = FileMaterials, default(Vec::new()), "{ Skin: mirror }";
         /// Light that falls on it from all sides alike, in its rest frame, instead of that which falls on all bodies.
         ambient: Option<Glow> = GlowKind, optional, "{ luminance: 20 cd/m2 }";
+        /// Not one of it but many, each with a place, a turn and a velocity of its own.
+        swarm: Option<Swarm> = Swarm, optional, "{ count: 10000, within: 20 4 20 m, speed: 0.6 c }";
     }
 }
 
@@ -287,6 +290,7 @@ impl Kind for Bodies {
             }
         }
         for item in items {
+            sound = sound.and(swarm::check(item, reader));
             if name(item, "asset").is_some_and(|asset| reader.solids.contains(&asset))
                 && let Some(materials) = item.get("materials")
             {

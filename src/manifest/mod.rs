@@ -43,6 +43,7 @@ mod solid;
 mod spectrum;
 mod stereo;
 mod surroundings;
+mod swarm;
 mod table;
 mod units;
 mod yaml;
@@ -72,6 +73,7 @@ pub use solid::{Cone, Cuboid, Cylinder, Plane, Pose, Solid, SolidForm, Sphere};
 pub use spectrum::{Illuminant, Line, Spectrum};
 pub use stereo::{Layout, Stereo};
 pub use surroundings::{SkyPicture, StarOrigin, Stars, Surroundings};
+pub use swarm::Swarm;
 pub use table::Rows;
 pub(crate) use table::read_text;
 

@@ -111,7 +111,7 @@ impl Kind for Plane {
 }
 
 /// Three lengths above zero, or one for all three.
-struct Extent;
+pub(super) struct Extent;
 
 impl Kind for Extent {
     type Value = DVec3;

@@ -82,7 +82,7 @@ fn check_speed(
 
 fn check_glass(manifest: &Manifest, scene: &Scene, report: &mut Report) {
     for (number, body) in manifest.bodies.iter().enumerate() {
-        let gamma = body.placement.velocity.gamma();
+        let gamma = body.gamma();
         if gamma > GREATEST_GAMMA_OF_GLASS && is_of_glass(scene, number) {
             let what = format!("glass at a Lorentz factor of {gamma:.1e}");
             report.fault(body.place.clone(), what, "1e5 at most, or describe all from where the glass rests");
@@ -155,7 +155,7 @@ fn check_bodies(manifest: &Manifest, scene: &Scene, ends: &[Event], report: &mut
         }
     }
     for (body, (place_part, way_part, error)) in manifest.bodies.iter().zip(worst) {
-        let gamma = body.placement.velocity.gamma();
+        let gamma = body.gamma();
         let nearer = "bring the body and the observer nearer to one another, and both nearer to the lab's origin and time \
                       zero, or make the body larger or slower";
         if !(place_part <= WORTH_SAYING) {

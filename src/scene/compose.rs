@@ -40,10 +40,14 @@ pub fn compose_rest(manifest: &Manifest, path: &Path, report: &mut Report) -> Sc
     };
     for (number, body) in manifest.bodies.iter().enumerate() {
         let solid = manifest.assets.get(&body.asset.value).and_then(manifest::AssetRef::solid);
-        if let Some(solid) = solid {
-            gathered.add_solid(number as u32, body, solid, report);
-        } else if let Some(model) = models.of(manifest, body).zip(chosen.get(&body.asset.value)) {
-            gathered.add_body(number as u32, body, model, report);
+        let model = models.of(manifest, body).zip(chosen.get(&body.asset.value));
+        for placement in body.placements() {
+            let body = manifest::Body { placement, ..body.clone() };
+            if let Some(solid) = solid {
+                gathered.add_solid(number as u32, &body, solid, report);
+            } else if let Some(model) = model {
+                gathered.add_body(number as u32, &body, model, report);
+            }
         }
     }
     for light in &manifest.lights {
@@ -300,7 +304,8 @@ fn unaberrated(manifest: &Manifest, report: &mut Report) -> Option<Unaberrated> 
     if manifest.effects.aberration {
         return None;
     }
-    let mut bodies = manifest.bodies.iter().map(|body| body.placement.velocity);
+    let mut bodies =
+        manifest.bodies.iter().flat_map(manifest::Body::placements).map(|placement| placement.velocity);
     let velocity = bodies.next().unwrap_or(Velocity::REST);
     if bodies.any(|other| other != velocity) {
         report.fault(

@@ -11,6 +11,7 @@ mod stars;
 
 pub use catalogue::parse_catalogue;
 pub use panorama::Panorama;
+pub(crate) use seeded::draws;
 pub use seeded::{Kinds, seeded};
 pub use stars::{COOLEST_K, HOTTEST_K, MAGNITUDE_ZERO_LX, MOST_STARS, Star, Stars};
 

@@ -44,15 +44,11 @@ const CLASSES: [(f64, f64); 7] = [
     (1.0, 30_000.0),
 ];
 
-/// Numbers for each star.
-const DRAWS: u64 = 4;
-
 /// `count` stars, evenly strewn over the sphere. Star number i depends on the seed and i alone.
 pub fn seeded(seed: u64, count: usize, kinds: Kinds) -> impl Iterator<Item = Star> {
     let seed = mixed(seed);
     (0..count as u64).map(move |i| {
-        let [height, around, brightness, heat] =
-            std::array::from_fn(|j| even(seed, i.wrapping_mul(DRAWS).wrapping_add(j as u64)));
+        let [height, around, brightness, heat] = draws_of(seed, i);
         let y = 2.0 * height - 1.0;
         let (sin, cos) = libm::sincos(TAU * around);
         let across = ((1.0 - y) * (1.0 + y)).sqrt();
@@ -79,6 +75,15 @@ fn temperature(part: f64) -> f64 {
     let after = CLASSES.partition_point(|(share, _)| *share <= part).clamp(1, CLASSES.len() - 1);
     let ((share, cool), (next, hot)) = (CLASSES[after - 1], CLASSES[after]);
     cool * libm::pow(hot / cool, (part - share) / (next - share))
+}
+
+/// `N` numbers, even from 0 to below 1, for thing number i of a seed.
+pub(crate) fn draws<const N: usize>(seed: u64, i: u64) -> [f64; N] {
+    draws_of(mixed(seed), i)
+}
+
+fn draws_of<const N: usize>(seed: u64, i: u64) -> [f64; N] {
+    std::array::from_fn(|j| even(seed, i.wrapping_mul(N as u64).wrapping_add(j as u64)))
 }
 
 /// Draw number `i` of a seed, even from 0 to below 1.

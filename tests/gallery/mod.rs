@@ -5,6 +5,8 @@
 
 mod blinking;
 mod gate;
+mod ours;
+mod ours_light;
 mod rocket;
 mod rotation;
 mod shadows;
