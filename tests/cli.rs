@@ -7,12 +7,12 @@ fn top(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-fn terrell(arguments: &[&str]) -> Output {
+pub(crate) fn terrell(arguments: &[&str]) -> Output {
     let program = Command::new(env!("CARGO_BIN_EXE_terrell")).current_dir(top("")).args(arguments).output();
     program.unwrap()
 }
 
-fn said(output: &Output) -> String {
+pub(crate) fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 

@@ -47,6 +47,7 @@ mod radiance;
 mod seeing;
 mod settle;
 mod shadow;
+mod sheet;
 mod sky;
 mod solid;
 mod solids;

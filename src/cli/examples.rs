@@ -46,6 +46,12 @@ Examples:
 
 It chooses distances, speed, light and exposure so that the first picture is good, and says what each line means.";
 
+pub(super) const SHEET: &str = "\
+Examples:
+  terrell sheet assets/monkey.png --columns 2 --out out/sheet.png
+
+Folders are those that `terrell render` has written: `terrell sheet out/gallery/* --columns 6 --width 240`.";
+
 pub(super) const SCHEMA: &str = "\
 Examples:
   terrell schema --out manifests/terrell.schema.json

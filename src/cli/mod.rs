@@ -8,6 +8,7 @@ mod manual;
 mod new;
 mod preview;
 mod progress;
+mod sheet;
 mod signals;
 mod sized;
 mod watch;
@@ -21,7 +22,7 @@ use crate::scene::{Scene, compose, compose_rest};
 use crate::stereo::Layout;
 use crate::stop::Stop;
 use clap::{Args, Parser, Subcommand};
-use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, NEW, RENDER, SCHEMA};
+use examples::{CHART, CHECK, COMPLETIONS, EXAMPLES, INSPECT, MAN, NEW, RENDER, SCHEMA, SHEET};
 use std::io::{IsTerminal, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -52,6 +53,9 @@ enum Command {
     /// Write a manifest to begin with, for any model
     #[command(after_help = NEW)]
     New(new::NewArgs),
+    /// Put pictures on a contact sheet, each with its name
+    #[command(after_help = SHEET)]
+    Sheet(sheet::SheetArgs),
     /// Print the JSON Schema of manifests, by which editors complete keys and explain them
     #[command(after_help = SCHEMA)]
     Schema(manual::SchemaArgs),
@@ -160,6 +164,7 @@ pub fn run() -> ExitCode {
         Command::Chart(args) => pool(args.threads).and_then(|pool| pool.install(|| chart::run(&args))),
         Command::Inspect(args) => inspect::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Sheet(args) => sheet::run(&args),
         Command::Schema(args) => manual::schema(&args),
         Command::Completions(args) => manual::completions(&args),
         Command::Man(args) => manual::man(&args),

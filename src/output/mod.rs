@@ -18,6 +18,7 @@ mod palette;
 mod png;
 #[cfg(feature = "video")]
 mod reel;
+mod sheet;
 #[cfg(feature = "video")]
 mod yuv;
 
@@ -29,6 +30,7 @@ pub use self::film::{FilmKind, Making, Refusal, Refused};
 pub use self::gif::Gif;
 pub use self::movie::Movie;
 pub use self::png::{Picture8, Picture16, ReadPng, eight_of, png_texts, read_png, write_png, write_png16};
+pub use self::sheet::contact_sheet;
 
 use crate::error::{Error, Place};
 use std::fs::{self, File, OpenOptions};

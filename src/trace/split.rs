@@ -42,6 +42,10 @@ const STEPS: u32 = 12;
 const TOGETHER: f64 = 0.2;
 /// So many wavelengths to a pixel that neighbours part, over the pixel's samples: with one, rainbows have stripes.
 const PER_PIXEL: f64 = 3.0;
+/// From so many samples of a pixel on their wavelengths are taken in turn between the observer's, also where these do not part.
+const SEVERAL: f64 = 4.0;
+/// Then a sample follows so many wavelengths, if they do not part further.
+const GAPS: usize = 8;
 /// The most wavelengths between two neighbours.
 const MOST_BETWEEN: f64 = 31.0;
 
@@ -72,20 +76,23 @@ impl Lit<'_> {
             all.extend(lines.into_iter().map(|line| (nm, line)));
             value
         };
-        if apart.iter().all(|apart| *apart < TOGETHER) {
+        let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
+        if samples < SEVERAL && apart.iter().all(|apart| *apart < TOGETHER) {
             for (sum, nm) in gathered.light.radiance.iter_mut().zip(lanes) {
                 *sum += at(*nm);
             }
         } else {
-            let samples = (path.cone.pixel / path.cone.sample).powi(2).max(1.0);
-            for next in 0..=N {
-                let last = next.checked_sub(1);
+            let stride = if samples < SEVERAL { 1 } else { (N / GAPS).max(1) };
+            let mut last = None;
+            while last != Some(N) {
+                let next = last.map_or(stride - 1, |last| N.min(last + stride));
                 let from = last.map_or(color::SHORTEST_NM, |last| lanes[last]);
                 let to = lanes.get(next).copied().unwrap_or(color::LONGEST_NM);
-                let apart = last.and_then(|last| apart.get(last)).copied().unwrap_or(0.0);
-                let count = (PER_PIXEL * apart / samples).ceil().clamp(1.0, MOST_BETWEEN);
+                let apart: f64 = apart.iter().take(next).skip(last.unwrap_or(0)).sum();
+                let count = (PER_PIXEL * apart / samples).ceil().clamp(1.0, MOST_BETWEEN * stride as f64);
                 let bands = gathered.bands.as_deref_mut();
                 gathered.light.lines += sampled((from, to), (count as u32, path.cone.phase), bands, &mut at);
+                last = Some(next);
             }
         }
         if self.lines.is_empty() {

@@ -19,11 +19,16 @@ mod single;
 mod stage;
 mod svg;
 mod thin;
+mod tolerance;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let only = std::env::args().nth(1);
     let wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
+    if only.as_deref() == Some("tolerance") {
+        let arguments: Vec<String> = std::env::args().skip(2).collect();
+        return tolerance::run(&arguments);
+    }
     if wanted("edges") {
         edges::run(folder)?;
     }
