@@ -4,6 +4,7 @@
 //! and in metres of light travel, by closed forms. Only the scene is the program's.
 
 mod blinking;
+mod explained;
 mod gate;
 mod ours;
 mod ours_light;
