@@ -57,6 +57,7 @@ pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
     let memory = memory(plan);
     let threads = rayon::current_num_threads();
     let pixels = f64::from(plan.sampling.width) * f64::from(plan.sampling.height);
+    let once = once(scene, plan);
     let (traced, sample) = match plan.tolerance {
         Some(tolerance) => settled(scene, plan, tolerance),
         None => traced(scene, plan),
@@ -74,7 +75,18 @@ pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
     let beside = |traced: f64| written.max(traced + developed + written / threads as f64);
     let count = plan.exposures.len() as f64;
     let all = if plan.still { traced + count * beside(0.0) } else { count * beside(traced) };
-    Cost { metering, picture: all / count, all: metering + all, threads, memory }
+    Cost { metering, picture: all / count, all: once + metering + all, threads, memory }
+}
+
+/// The seconds that tables and the like take, which are made when they are asked for first, and only once.
+fn once(scene: &Scene, plan: &Plan) -> f64 {
+    let Sampling { width, height, .. } = plan.sampling;
+    let view = scene.observer.view(plan.exposures[plan.exposures.len() / 2].tau, width, height);
+    let middle = |side: u32| (side as usize).div_ceil(TILE) / 2;
+    let started = Clock::start();
+    let lit = scene.lit().seen_from(view.tetrad.event);
+    expose_tiles(&lit, &view, &plan.sampling, &[(middle(width), middle(height))]);
+    started.passed(1)
 }
 
 /// The seconds that a picture takes to be traced, and one sample of it.
@@ -100,10 +112,14 @@ fn traced(scene: &Scene, plan: &Plan) -> (f64, f64) {
         next += squares;
         let started = Clock::start();
         let lit = scene.lit().seen_from(view.tetrad.event);
+        let begin = Clock::start();
+        expose_tiles(&lit, &view, &plan.sampling, &[]);
+        let begun = begin.passed(rayon::current_num_threads());
         let made_ready = started.passed(1);
         let started = Clock::start();
         let exposed = expose_tiles(&lit, &view, &plan.sampling, &places) as f64;
-        let took = started.passed(rayon::current_num_threads());
+        // What it takes to begin is in both.
+        let took = (started.passed(rayon::current_num_threads()) - begun).max(1e-9);
         if means.is_empty() {
             let room = BUDGET.as_secs_f64() / (2 * ROUNDS.0) as f64;
             squares = ((squares as f64 * room / took) as usize).clamp(SQUARES.0, SQUARES.1);
