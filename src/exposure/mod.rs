@@ -14,7 +14,6 @@ use crate::scene::Scene;
 use crate::spacetime::SightRay;
 use crate::spectrum::Wavelengths;
 use crate::stop::Stop;
-use crate::surface::{Look, Surface};
 use crate::trace::{Cone, First, Light, Lit};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -172,27 +171,20 @@ fn phase(number: u32) -> f64 {
 
 /// What stands first in the way at each pixel's centre.
 pub fn first_hits(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<First>> {
-    first_and(scene, view, (width, height), Lit::first)
+    first_seen(scene, view, (width, height), |lit, _, ray| lit.first(ray))
 }
 
-/// The same with the colours of surfaces by daylight at rest, linear sRGB.
-pub fn first_colors(scene: &Scene, view: &View, width: u32, height: u32) -> Vec<Option<(First, DVec3)>> {
-    let color = |surface: Option<&Surface>, look: &Look<'_>| {
-        surface.map_or(DVec3::ZERO, |surface| surface.albedo(look))
-    };
-    first_and(scene, view, (width, height), |lit, ray| lit.first_and(ray, color))
-}
-
-fn first_and<'s, T: Send + Clone>(
+/// Something of what stands first in the way, of the place of each pixel's centre and the ray through it.
+pub(crate) fn first_seen<'s, T: Send + Clone>(
     scene: &'s Scene,
     view: &View,
     (width, height): (u32, u32),
-    of: impl Fn(&Lit<'s>, &SightRay) -> Option<T> + Sync,
+    of: impl Fn(&Lit<'s>, DVec2, &SightRay) -> Option<T> + Sync,
 ) -> Vec<Option<T>> {
     let lit = scene.lit().seen_from(view.tetrad.event);
     let first = |column: usize, row: usize| {
         let place = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
-        if view.shows(place) { of(&lit, &view.ray(place)) } else { None }
+        if view.shows(place) { of(&lit, place, &view.ray(place)) } else { None }
     };
     by_pixel(width, height, first)
 }

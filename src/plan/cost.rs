@@ -6,8 +6,10 @@
 
 use super::Plan;
 use crate::exposure::{Sampling, TILE, expose_settled, expose_tiles};
+use crate::manifest::Layer;
 use crate::render;
 use crate::scene::Scene;
+use crate::stereo::Layout;
 use std::time::{Duration, Instant};
 
 /// What is to be expected.
@@ -36,21 +38,24 @@ const ENOUGH: f64 = 0.02;
 /// Columns of the pictures on which a tolerance is tried.
 const SETTLED_COLUMNS: u32 = 192;
 
-/// Seconds a pixel on one thread, measured (README of tools/cost): development, PNG, coding for the film, OpenEXR.
+/// Seconds a pixel on one thread, measured: development, PNG, coding for the film, a channel of OpenEXR.
 const DEVELOPED: f64 = 15e-9;
 const PNG: f64 = 18e-9;
 const CODED: f64 = 15e-9;
-const EXR: f64 = 1800e-9;
+const EXR: f64 = 105e-9;
 
-/// Bytes a pixel: pictures in the making, on their way and being written; what a film and OpenEXR take beside that; what is known
-/// of a pixel that is to settle.
-const PICTURES: f64 = 54.0;
-const FILM: f64 = 20.0;
-const LAYERS: f64 = 220.0;
-const SETTLING: f64 = 420.0;
+/// Bytes a pixel, measured: pictures in the making, on their way and being written; what a film and 16 bits take beside that; a channel
+/// of OpenEXR, what rays to the pixels' centres tell, a part of the spectrum; what is known of a pixel that is to settle.
+const PICTURES: f64 = 25.0;
+const FILM: f64 = 11.0;
+const SIXTEEN: f64 = 12.0;
+const CHANNEL: f64 = 9.6;
+const SEEN: f64 = 112.0;
+const BAND: f64 = 32.0;
+const SETTLING: f64 = 315.0;
 /// What threads and the rest take, and what the coding of a film takes of any size, bytes.
-const BESIDE: f64 = 4e6;
-const CODER: f64 = 8e6;
+const BESIDE: f64 = 2e6;
+const CODER: f64 = 1e6;
 
 /// What the whole film will cost. Takes two seconds or less, but for scenes of which a few squares take longer.
 pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
@@ -62,6 +67,10 @@ pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
         Some(tolerance) => settled(scene, plan, tolerance),
         None => traced(scene, plan),
     };
+    // Two eyes are two pictures in one, or two films.
+    let layout = scene.observer.stereo.map(|eyes| eyes.layout);
+    let traced = if layout == Some(Layout::Anaglyph) { 2.0 * traced } else { traced };
+    let films = if layout == Some(Layout::LeftRight) { 2.0 } else { 1.0 };
     let metering = render::metering(plan).map_or(0.0, |metering| {
         let Sampling { width, height, .. } = metering.small;
         sample * metering.pictures as f64 * f64::from(width) * f64::from(height)
@@ -69,13 +78,13 @@ pub fn estimate(scene: &Scene, plan: &Plan) -> Cost {
     let film = CODED * render::film_paths(plan, plan.exposures.len()).len() as f64;
     let written = pixels * (PNG + film);
     // OpenEXR is packed on all threads.
-    let exr = if plan.outputs.exr.is_some() { EXR } else { 0.0 };
+    let exr = EXR * channels(plan);
     let developed = pixels * (DEVELOPED + exr) / threads as f64;
     // Files are written beside the tracing of the next picture, on the same processor.
     let beside = |traced: f64| written.max(traced + developed + written / threads as f64);
     let count = plan.exposures.len() as f64;
     let all = if plan.still { traced + count * beside(0.0) } else { count * beside(traced) };
-    Cost { metering, picture: all / count, all: once + metering + all, threads, memory }
+    Cost { metering, picture: all / count, all: once + metering + films * all, threads, memory }
 }
 
 /// The seconds that tables and the like take, which are made when they are asked for first, and only once.
@@ -200,6 +209,11 @@ fn settled(scene: &Scene, plan: &Plan, tolerance: f64) -> (f64, f64) {
     (seconds * pixels(&plan.sampling) / pixels(&small), seconds / pixels(&small) / (samples / pictures))
 }
 
+/// The channels of an OpenEXR file, if there are to be any.
+fn channels(plan: &Plan) -> f64 {
+    plan.outputs.exr.as_ref().map_or(0.0, |wanted| render::channels(plan, wanted) as f64)
+}
+
 /// The memory that will be taken at most, given what the scene has taken.
 fn memory(plan: &Plan) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -208,11 +222,17 @@ fn memory(plan: &Plan) -> Option<f64> {
         line.split_whitespace().next()?.parse().ok()
     };
     let (most, now) = (1024.0 * kilobytes("VmHWM:")?, 1024.0 * kilobytes("VmRSS:")?);
-    let film = render::film_paths(plan, plan.exposures.len()).len() as f64;
+    let films = render::film_paths(plan, plan.exposures.len()).len() as f64;
+    let spectral = plan.outputs.exr.as_ref().is_some_and(|wanted| wanted.layers.contains(&Layer::Spectrum));
+    let bands = if spectral { f64::from(plan.sampling.wavelengths) } else { 0.0 };
+    let with = |wanted: bool, bytes: f64| if wanted { bytes } else { 0.0 };
     let pixel = PICTURES
-        + FILM * film
-        + if plan.outputs.exr.is_some() { LAYERS } else { 0.0 }
-        + if plan.tolerance.is_some() { SETTLING } else { 0.0 };
+        + FILM * films
+        + CHANNEL * channels(plan)
+        + BAND * bands
+        + with(plan.outputs.sixteen, SIXTEEN)
+        + with(render::asks_rays(plan), SEEN)
+        + with(plan.tolerance.is_some(), SETTLING);
     let pixels = f64::from(plan.sampling.width) * f64::from(plan.sampling.height);
-    Some(most.max(now + pixels * pixel + BESIDE + CODER * film))
+    Some(most.max(now + pixels * pixel + BESIDE + CODER * films))
 }

@@ -2,51 +2,52 @@
 
 use super::Print;
 use crate::color::RGB_FROM_XYZ;
-use crate::exposure::{first_colors, first_hits, middles};
+use crate::exposure::{first_seen, middles};
 use crate::manifest::{Depth, Layer};
 use crate::observer::View;
 use crate::output::{Channel, ExrForm, Measured};
 use crate::plan::{self, Picture, Plan};
 use crate::scene::Scene;
-use crate::trace::First;
-use glam::{DVec2, DVec3};
+use crate::surface::{Look, Surface};
+use glam::{DVec3, Vec3};
 
-/// What is seen at a pixel's centre beside its light.
+/// What is seen at a pixel's centre beside its light, as finely as it is written.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    first: First,
+    doppler: f64,
+    // The lab's time, metres.
+    emission: f64,
     // Metres.
-    distance: f64,
-    normal: DVec3,
-    albedo: DVec3,
+    distance: f32,
+    normal: Vec3,
+    albedo: Vec3,
+    body: u32,
+    material: u32,
 }
 
 /// What is seen at each pixel's centre.
 pub(super) fn seen(scene: &Scene, plan: &Plan, view: &View) -> Vec<Option<Seen>> {
-    let (width, height) = (plan.sampling.width, plan.sampling.height);
     let colored = plan.outputs.exr.as_ref().is_some_and(|exr| exr.layers.contains(&Layer::Albedo));
-    let firsts: Vec<Option<(First, DVec3)>> = if colored {
-        first_colors(scene, view, width, height)
-    } else {
-        let firsts = first_hits(scene, view, width, height).into_iter();
-        firsts.map(|first| first.map(|first| (first, DVec3::ZERO))).collect()
+    let color = |surface: Option<&Surface>, look: &Look<'_>| {
+        surface.map_or(DVec3::ZERO, |surface| surface.albedo(look))
     };
-    let seen = |(number, first): (usize, Option<(First, DVec3)>)| {
-        let (first, albedo) = first?;
-        let (column, row) = (number % width as usize, number / width as usize);
-        let centre = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+    first_seen(scene, view, (plan.sampling.width, plan.sampling.height), |lit, centre, ray| {
+        let (first, albedo) =
+            if colored { lit.first_and(ray, color)? } else { (lit.first(ray)?, DVec3::ZERO) };
         Some(Seen {
-            distance: first.s * view.frequency(&view.ray(centre)),
-            normal: view.apparent_normal(centre, first.normal),
-            albedo,
-            first,
+            doppler: first.doppler.factor(),
+            emission: first.emission.t,
+            distance: (first.s * view.frequency(ray)) as f32,
+            normal: view.apparent_normal(centre, first.normal).as_vec3(),
+            albedo: albedo.as_vec3(),
+            body: first.body,
+            material: first.surface,
         })
-    };
-    firsts.into_iter().enumerate().map(seen).collect()
+    })
 }
 
 /// Whether what is wanted is told by rays to the pixels' centres.
-pub(super) fn asks_rays(plan: &Plan) -> bool {
+pub(crate) fn asks_rays(plan: &Plan) -> bool {
     let outputs = &plan.outputs;
     let measured = |layer: &Layer| !matches!(layer, Layer::Radiance | Layer::Xyz | Layer::Spectrum);
     let exr = outputs.exr.as_ref().is_some_and(|exr| exr.layers.iter().any(measured));
@@ -56,8 +57,8 @@ pub(super) fn asks_rays(plan: &Plan) -> bool {
 /// A number of what is seen at each pixel's centre, for false colours.
 pub(super) fn shown(plan: &Plan, print: &Print, picture: Picture) -> Vec<Option<f64>> {
     let number = |seen: &Seen| match picture {
-        Picture::EmissionTime => seen.first.emission.t * plan.seconds_per_metre,
-        _ => seen.first.doppler.factor(),
+        Picture::EmissionTime => seen.emission * plan.seconds_per_metre,
+        _ => seen.doppler,
     };
     print.seen.as_deref().unwrap_or(&[]).iter().map(|seen| seen.as_ref().map(number)).collect()
 }
@@ -71,6 +72,11 @@ pub(super) fn form(plan: &Plan, wanted: &plan::Measured) -> ExrForm {
     channels.sort();
     channels.dedup();
     ExrForm { size: (width, height), channels }
+}
+
+/// How many channels the file of any exposure has.
+pub(crate) fn channels(plan: &Plan, wanted: &plan::Measured) -> usize {
+    form(plan, wanted).channels.len()
 }
 
 /// The channels of a layer.
@@ -137,17 +143,17 @@ fn values(plan: &Plan, wanted: &plan::Measured, print: &Print, name: &str) -> Ve
         "cie.X" => light(&|xyz| xyz.x),
         "cie.Y" => light(&|xyz| xyz.y),
         "cie.Z" => light(&|xyz| xyz.z),
-        "doppler" => number(0.0, &|seen| seen.first.doppler.factor()),
-        "emission_time" => number(0.0, &|seen| seen.first.emission.t * plan.seconds_per_metre),
-        "distance" => number(0.0, &|seen| seen.distance),
-        "normal.X" => number(0.0, &|seen| seen.normal.x),
-        "normal.Y" => number(0.0, &|seen| seen.normal.y),
-        "normal.Z" => number(0.0, &|seen| seen.normal.z),
-        "albedo.R" => number(0.0, &|seen| seen.albedo.x),
-        "albedo.G" => number(0.0, &|seen| seen.albedo.y),
-        "albedo.B" => number(0.0, &|seen| seen.albedo.z),
-        "body" => number(-1.0, &|seen| f64::from(seen.first.body)),
-        "material" => number(-1.0, &|seen| f64::from(seen.first.surface)),
+        "doppler" => number(0.0, &|seen| seen.doppler),
+        "emission_time" => number(0.0, &|seen| seen.emission * plan.seconds_per_metre),
+        "distance" => number(0.0, &|seen| seen.distance.into()),
+        "normal.X" => number(0.0, &|seen| seen.normal.x.into()),
+        "normal.Y" => number(0.0, &|seen| seen.normal.y.into()),
+        "normal.Z" => number(0.0, &|seen| seen.normal.z.into()),
+        "albedo.R" => number(0.0, &|seen| seen.albedo.x.into()),
+        "albedo.G" => number(0.0, &|seen| seen.albedo.y.into()),
+        "albedo.B" => number(0.0, &|seen| seen.albedo.z.into()),
+        "body" => number(-1.0, &|seen| f64::from(seen.body)),
+        "material" => number(-1.0, &|seen| f64::from(seen.material)),
         _ => {
             let number =
                 print.bands.as_ref().and_then(|bands| bands.nm.iter().position(|nm| band(*nm) == name));

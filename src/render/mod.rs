@@ -15,6 +15,7 @@ use crate::plan::{Exposure, Picture, Plan, White};
 use crate::scene::Scene;
 use crate::stereo::{self, Layout, Side, Stereo};
 use crate::stop::Stop;
+pub(crate) use layers::{asks_rays, channels};
 use scales::Scales;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -249,7 +250,7 @@ fn print(
     Exposed { negative, settling, bands, eyes }: Exposed,
 ) -> Print {
     let view = view(scene, plan, exposure);
-    let seen = layers::asks_rays(plan).then(|| layers::seen(scene, plan, &view));
+    let seen = asks_rays(plan).then(|| layers::seen(scene, plan, &view));
     let shown = |pixel: usize| match eyes.as_deref() {
         Some(eyes) => stereo::shown(eyes.each_ref().map(|eye| development.shown(eye, pixel))),
         None => development.shown(&negative, pixel),
