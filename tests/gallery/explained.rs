@@ -41,7 +41,11 @@ fn understood(page: &Path, command: &str) {
         meaning::check(manifest, scene, &plan, &mut report);
         assert_eq!(plan.exposures.len(), 1, "{}: {command}", page.display());
     }
-    assert!(report.faults.is_empty() && report.warnings.is_empty(), "{}: {command} {report:?}", page.display());
+    assert!(
+        report.faults.is_empty() && report.warnings.is_empty(),
+        "{}: {command} {report:?}",
+        page.display()
+    );
 }
 
 #[test]

@@ -35,3 +35,32 @@ fn corners_of_the_squares_are_seen_where_aberration_puts_them() {
     }
     assert!(corners > 150 && beside > 50, "{corners} {beside}");
 }
+
+/// Each model is seen where its manifest means it to be, with D = 1/(γ(1 - β·n)) for the way n of its light to the eye.
+#[test]
+fn models_fly_through_the_gate_where_they_are_seen() {
+    let exhibit = Exhibit::of("gate_models");
+    let tetrad = exhibit.scene.observer.worldline.at(exhibit.plan.exposures[0].tau);
+    let eye = v(0.0, 2.4, -9.5);
+    for (name, at, beta) in [
+        ("near", v(1.9, 1.7, -1.0), -0.5),
+        ("behind", v(-2.2, 3.2, 4.0), -0.5),
+        ("far", v(0.6, 4.4, 12.0), -0.5),
+        ("coming_die", v(-1.1, 1.2, -3.5), -0.5),
+        ("going", v(-3.4, 1.5, 0.5), 0.5),
+        ("going_die", v(3.4, 4.2, 0.0), 0.5),
+    ] {
+        let n = (eye - at).normalize();
+        let first = exhibit.scene.lit().first(&tetrad.sight_ray(-n)).unwrap();
+        assert_eq!(exhibit.manifest.bodies[first.body as usize].known_as(), name);
+        // Its surface is before its middle, by no more than its own size.
+        let far = (eye - at).length();
+        assert!((first.s - far).abs() < 1.5, "{name}: {} m for {far} m", first.s);
+        let doppler = 0.75_f64.sqrt() / (1.0 - beta * n.z);
+        assert!(
+            (first.doppler.factor() - doppler).abs() < 1e-9,
+            "{name}: {} for {doppler}",
+            first.doppler.factor()
+        );
+    }
+}

@@ -1,6 +1,6 @@
 //! The shadows of two cubes below a lamp that passes, and of a cube that passes a lamp.
 
-use super::{Exhibit, NS, Pinhole, a_cube_is_between, between};
+use super::{CUBES, Exhibit, NS, Pinhole, a_cube_is_between, between};
 use crate::support::{edge, v};
 use glam::{DVec2, DVec3};
 
@@ -66,6 +66,47 @@ fn shadows_of_two_cubes_end_where_the_lamps_earlier_place_throws_them() {
     }
     // There are edges, and they are elsewhere than those of light that takes no time.
     assert!(edges > 200 && naive > 3000, "{edges} {naive}");
+}
+
+/// In the mirror that the right cube is, the floor is seen by light that made a detour: a point at x shows the lamp's light of the
+/// time at which it passed there, `t - |x - m| - |m - eye|` with m on the mirror.
+#[test]
+fn mirrored_shadows_are_as_late_as_the_way_of_their_light() {
+    const WIDTH: u32 = 160;
+    let (eye, target) = (v(6.0, 3.4, 4.6), v(0.9, 0.3, -1.6));
+    let exhibit = Exhibit::of("two_cubes_glass");
+    let (view, seen) = (exhibit.view(0, WIDTH), 55.0 * NS);
+    let pinhole = Pinhole::toward(target - eye, WIDTH);
+    let (mut lit, mut dark, mut naive) = (0, 0, 0);
+    for (column, row) in (0..WIDTH).flat_map(|x| (0..WIDTH).map(move |y| (x, y))) {
+        let pixel = DVec2::new(f64::from(column) + 0.219, f64::from(row) + 0.437);
+        let n = pinhole.direction(pixel);
+        // Its faces at x = 4 and z = 1, from which the other cube is hidden by it.
+        let faces = [(DVec3::X, (4.0 - eye.x) / n.x), (DVec3::Z, (1.0 - eye.z) / n.z)];
+        let on_cube = |(_, way): &(DVec3, f64)| {
+            let beside = (eye + n * *way - CUBES[0]).abs();
+            *way > 0.0 && beside.max_element() < 1.0 + 1e-9
+        };
+        let Some((normal, way)) = faces.into_iter().find(on_cube) else { continue };
+        let (m, on) = (eye + n * way, n - normal * (2.0 * n.dot(normal)));
+        let x = m + on * (-m.y / on.y);
+        let left = between(CUBES[1], 1.0, m, x);
+        if on.y >= 0.0 || left || (x - m).length() > 20.0 {
+            continue;
+        }
+        let shadow = |t: f64| {
+            let lamp = v(0.0, 3.0, -0.9 * departure(t, x));
+            between(CUBES[0], 1.0, lamp, x)
+        };
+        let expected = !shadow(seen - way - (x - m).length());
+        let ray = view.ray(pixel);
+        assert_eq!(exhibit.body(&ray), Some(1), "{pixel}");
+        assert_eq!(exhibit.shows_lamplight(&ray), expected, "{pixel}: {x}");
+        lit += u32::from(expected);
+        dark += u32::from(!expected);
+        naive += u32::from(expected == shadow(seen - (x - eye).length()));
+    }
+    assert!(lit > 100 && dark > 100 && naive > 3, "{lit} {dark} {naive}");
 }
 
 /// From the middle of the cube that moves, as it is when light is at x at the time t: γ times as far along its motion, so that the way
