@@ -110,7 +110,8 @@ impl Pixel {
         let times = libm::pow((self.unsettled / room).max(1.0), 4.0 / 3.0).min(GROWTH);
         // After the first pass rather too few: then it is looked at again, and what is too much is never given back.
         let doublings = libm::log2(times);
-        let doublings = if self.sums.samples == FIRST { doublings.ceil() } else { doublings.floor().max(1.0) };
+        let doublings =
+            if self.sums.samples == FIRST { doublings.ceil() } else { doublings.floor().max(1.0) };
         let doublings = if times > 1.0 { doublings as u32 } else { 0 };
         let samples = (self.sums.samples << doublings).min(MOST);
         let wavelengths = self.wavelengths_for(for_wavelengths);
