@@ -25,7 +25,8 @@ pub(super) fn of_picture(
     texts.push(("Lab time", format!("{} s", number(carried.event.t * second))));
     texts.push(("Place", format!("{} m", numbers(carried.event.x))));
     texts.push(("Velocity", format!("{} c", numbers(four.x / four.t))));
-    texts.push(("Gamma", number(four.t)));
+    // Not "Gamma": ImageMagick takes that for the picture's own, and shows it with other colours.
+    texts.push(("Lorentz factor", number(four.t)));
     texts
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens a file of every format that terrell writes with readers of others, and prints a table: check.py [--terrell PROGRAM] [--keep FOLDER]
 
-Readers, as far as they are there: ffprobe and ffmpeg, exrheader (OpenEXR's own), Chromium, Pillow, and Blender's OpenImageIO (the module bpy). Pictures are compared with the PNG of
+Readers, as far as they are there: ImageMagick, ffprobe and ffmpeg, exrheader (OpenEXR's own), Chromium, Pillow, and Blender's OpenImageIO (the module bpy). Pictures are compared with the PNG of
 8 bits as Pillow reads it: the table says how far values of 0 to 255 are off in the mean, and for linear files by which part ffmpeg and Blender differ at most. Needs numpy and Pillow.
 Ends with 1 if a reader refuses a file, or reads another size, number of pictures or other colours.
 """
@@ -85,6 +85,13 @@ def pillow(path, right, most):
     if text:
         about += ", texts"
     return about if right is None else f"{about}, {off(values, right, most)}"
+
+
+def by_magick(path):
+    gamma = said("identify", "-format", "%[gamma]", path)
+    if abs(float(gamma) - 1 / 2.2) > 0.01:
+        raise ValueError(f"gamma {gamma}")
+    return "sRGB"
 
 
 def raw(path, pixels, number=0):
@@ -251,6 +258,8 @@ def main():
     for what, path, expected in pictures:
         row(what, "Pillow", lambda: pillow(path, expected, 1.0))
         row(what, "ffmpeg", lambda: by_ffmpeg(path, expected, 1.0))
+        if path.endswith(".png"):
+            row(what, "ImageMagick", lambda: by_magick(path))
     row("PNG, 16 bits", "file", lambda: said("file", "-b", sixteen).strip())
 
     light = ["R", "G", "B", "distance", "normal.X", "body", "material", "albedo.R", "doppler", "emission_time", "cie.Y"]
