@@ -109,10 +109,11 @@ impl Pixel {
         let room = error - self.unresolved.min(for_wavelengths);
         let times = libm::pow((self.unsettled / room).max(1.0), 4.0 / 3.0).min(GROWTH);
         // After the first pass rather too few: then it is looked at again, and what is too much is never given back.
-        let doublings = libm::log2(times);
-        let doublings =
-            if self.sums.samples == FIRST { doublings.ceil() } else { doublings.floor().max(1.0) };
-        let doublings = if times > 1.0 { doublings as u32 } else { 0 };
+        let doublings = match libm::log2(times) {
+            none if none <= 0.0 => 0,
+            some if self.sums.samples == FIRST => some.ceil() as u32,
+            some => (some as u32).max(1),
+        };
         let samples = (self.sums.samples << doublings).min(MOST);
         let wavelengths = self.wavelengths_for(for_wavelengths);
         let better = samples > self.sums.samples || wavelengths > self.wavelengths;
