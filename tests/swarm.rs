@@ -1,6 +1,8 @@
 //! A swarm is so many bodies.
 
 use crate::support::{exposed, manifested};
+use glam::DVec3;
+use std::f64::consts::PI;
 use terrell::error::Report;
 use terrell::manifest::Placement;
 use terrell::scene::compose;
@@ -58,6 +60,45 @@ fn bodies_of_a_swarm_depend_on_seed_and_number_alone() {
     assert_eq!(few, many[..10]);
     assert!(few.iter().zip(&others).all(|(a, b)| a.0 != b.0 && a.1 != b.1 && a.2 != b.2));
     assert_eq!(of("", 10), of("seed: 1,", 10));
+}
+
+/// How far the distribution of some values is from even between 0 and 1 (Kolmogorov's distance).
+fn unevenness(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let count = values.len() as f64;
+    values.iter().enumerate().fold(0.0, |most, (i, x)| most.max((x - i as f64 / count).abs()))
+}
+
+/// Places are even in the box, rapidities even up to the fastest's, directions even on the sphere: of these, and of each axis of a body
+/// that is turned at random, each component is even from -1 to 1 (Archimedes), and the angles θ of such turns have the
+/// distribution (θ - sin θ)/π.
+#[test]
+fn bodies_of_a_swarm_are_strewn_evenly() {
+    const COUNT: u32 = 100_000;
+    let swarm = format!(
+        "[{{ asset: die, at: 1 2 3 m, swarm: {{ seed: 9, count: {COUNT}, within: 4 6 8 m, speed: 0.8 c }} }}]"
+    );
+    let all = placements(&swarm);
+    let even = |what: &str, of: &dyn Fn(&Placement) -> f64| {
+        // More than that happens once in a thousand times.
+        let (off, most) = (unevenness(all.iter().map(of)), 1.95 / f64::from(COUNT).sqrt());
+        assert!(off < most, "{what}: {off} > {most}");
+    };
+    for axis in 0..3 {
+        let (middle, side) = ([1.0, 2.0, 3.0][axis], [4.0, 6.0, 8.0][axis]);
+        even("place", &|one| (one.at[axis] - middle) / side + 0.5);
+        even("direction", &|one| 0.5 + 0.5 * one.velocity.proper().normalize()[axis]);
+        for other in [DVec3::X, DVec3::Y, DVec3::Z] {
+            even("turn", &|one| 0.5 + 0.5 * (one.rotation * other)[axis]);
+        }
+    }
+    // tanh ln 3 = 0.8.
+    even("rapidity", &|one| libm::asinh(one.velocity.proper().length()) / libm::log(3.0));
+    even("angle", &|one| {
+        let angle = 2.0 * libm::acos(one.rotation.w.abs().min(1.0));
+        (angle - libm::sin(angle)) / PI
+    });
 }
 
 /// Where all rest together aberration can be left out; a swarm does not.

@@ -8,7 +8,7 @@ use super::reader::{Read, Reader};
 use super::record::record;
 use super::solid::Extent;
 use crate::spacetime::Velocity;
-use crate::surroundings::draws;
+use crate::surroundings::{draws, on_sphere};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ impl Swarm {
             let [x, y, z, height, around, haste, a, b, c] = draws(seed, i);
             Placement {
                 at: middle.at + within * (DVec3::new(x, y, z) - 0.5),
-                velocity: Velocity::from_rapidity(haste * fastest, direction(height, around)),
+                velocity: Velocity::from_rapidity(haste * fastest, on_sphere(height, around)),
                 rotation: turn(a, b, c) * middle.rotation,
                 ..middle.clone()
             }
@@ -49,14 +49,6 @@ impl Swarm {
     fn gamma(&self) -> f64 {
         libm::hypot(1.0, self.speed)
     }
-}
-
-/// A direction, all of them alike, of two even numbers from 0 to 1: heights on a sphere are even (Archimedes).
-fn direction(height: f64, around: f64) -> DVec3 {
-    let y = 2.0 * height - 1.0;
-    let across = ((1.0 - y) * (1.0 + y)).max(0.0).sqrt();
-    let (sin, cos) = libm::sincos(TAU * around);
-    DVec3::new(across * sin, y, across * cos)
 }
 
 /// A rotation, all of them alike, of three even numbers. Source: Shoemake, Graphics Gems III (1992), p. 124.

@@ -11,8 +11,8 @@ mod stars;
 
 pub use catalogue::parse_catalogue;
 pub use panorama::Panorama;
-pub(crate) use seeded::draws;
 pub use seeded::{Kinds, seeded};
+pub(crate) use seeded::{draws, on_sphere};
 pub use stars::{COOLEST_K, HOTTEST_K, MAGNITUDE_ZERO_LX, MOST_STARS, Star, Stars};
 
 use crate::spectrum::{Line, Source};

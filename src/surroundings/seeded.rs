@@ -49,10 +49,8 @@ pub fn seeded(seed: u64, count: usize, kinds: Kinds) -> impl Iterator<Item = Sta
     let seed = mixed(seed);
     (0..count as u64).map(move |i| {
         let [height, around, brightness, heat] = draws_of(seed, i);
-        let y = 2.0 * height - 1.0;
-        let (sin, cos) = libm::sincos(TAU * around);
-        let across = ((1.0 - y) * (1.0 + y)).sqrt();
-        let direction = DVec3::new(across * sin, y, -across * cos);
+        // The first is ahead, at -z.
+        let direction = DVec3::new(1.0, 1.0, -1.0) * on_sphere(height, around);
         let (kelvin, magnitude) = match kinds {
             Kinds::Alike { kelvin, magnitude } => (kelvin, magnitude),
             Kinds::Natural { brightest, faintest } => {
@@ -75,6 +73,14 @@ fn temperature(part: f64) -> f64 {
     let after = CLASSES.partition_point(|(share, _)| *share <= part).clamp(1, CLASSES.len() - 1);
     let ((share, cool), (next, hot)) = (CLASSES[after - 1], CLASSES[after]);
     cool * libm::pow(hot / cool, (part - share) / (next - share))
+}
+
+/// A direction, all of them alike, of two even numbers from 0 to 1: heights on a sphere are even (Archimedes).
+pub(crate) fn on_sphere(height: f64, around: f64) -> DVec3 {
+    let y = 2.0 * height - 1.0;
+    let across = ((1.0 - y) * (1.0 + y)).sqrt();
+    let (sin, cos) = libm::sincos(TAU * around);
+    DVec3::new(across * sin, y, across * cos)
 }
 
 /// `N` numbers, even from 0 to below 1, for thing number i of a seed.
