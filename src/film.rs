@@ -20,6 +20,19 @@ pub enum Reconstruction {
 }
 
 impl Reconstruction {
+    /// The weight of what is so far from the centre along one axis, a pixel: its integral is one.
+    pub fn density(self, away: f64) -> f64 {
+        match self {
+            Self::Box => f64::from(away.abs() <= 0.5),
+            Self::Tent => (1.0 - away.abs()).max(0.0),
+            Self::Gaussian if away.abs() > 1.5 => 0.0,
+            Self::Gaussian => {
+                let all = libm::erf(3.0 * std::f64::consts::FRAC_1_SQRT_2);
+                (2.0 / std::f64::consts::PI).sqrt() * libm::exp(-2.0 * away * away) / all
+            }
+        }
+    }
+
     /// The offset below which the part `part` (0 to 1) of the filter's weight lies, pixels.
     fn quantile(self, part: f64) -> f64 {
         match self {
@@ -57,31 +70,27 @@ impl Reconstruction {
         }
         offsets
     }
+}
 
-    /// Where the sample of this number lies, of a sequence that is spread evenly whichever power of two it stops at. From the
-    /// first to the fourth, and from each power of two to the next, the mean is the centre.
-    ///
-    /// Sobol's first two dimensions (SIAM J. Numer. Anal. 13(5), 1976). In each of the four columns (and rows) of a pixel they are
-    /// moved, by turns to one and to the other side, alike for all pixels of one `place` in squares of 4 by 4: there the samples of
-    /// one column of pixels lie in all sixteen parts of a pixel's width, and what is thin does not slip through.
-    pub fn scattered(self, number: u32, place: (u32, u32)) -> DVec2 {
-        let directions =
-            std::iter::successors(Some(1_u32 << 31), |direction| Some(direction ^ (direction >> 1)));
-        let chosen = directions.take(32).enumerate().filter(|(bit, _)| number >> bit & 1 == 1);
-        let down = chosen.fold(0, |down, (_, direction)| down ^ direction);
-        let part = |digits: u32, (moved, other): (u32, u32)| {
-            // Any digits that have nothing to do with one another.
-            let finer = (4 * moved + other + 1).wrapping_mul(0x9e37_79b9) >> 4;
-            let moved = [0, 2, 3, 1][moved as usize % 4] << 28 | finer;
-            let moved = if digits >> 30 & 1 == 1 { !moved } else { moved };
-            (f64::from(digits ^ (moved & 0x3fff_ffff)) + 0.5) / 4_294_967_296.0
-        };
-        let (column, row) = place;
-        DVec2::new(
-            self.quantile(part(number.reverse_bits(), (row, column))),
-            self.quantile(part(down, (column, row))),
-        )
-    }
+/// Where the sample of this number lies in a pixel's square, from its middle, of a sequence that is spread evenly whichever power of two
+/// it stops at. From the first to the fourth, and from each power of two to the next, the mean is the middle.
+///
+/// Sobol's first two dimensions (SIAM J. Numer. Anal. 13(5), 1976). In each of the four columns (and rows) of a square they are
+/// moved, by turns to one and to the other side, alike for all pixels of one `place` in squares of 4 by 4: there the samples of
+/// one column of pixels lie in all sixteen parts of a pixel's width, and what is thin does not slip through.
+pub fn scattered(number: u32, place: (u32, u32)) -> DVec2 {
+    let directions = std::iter::successors(Some(1_u32 << 31), |direction| Some(direction ^ (direction >> 1)));
+    let chosen = directions.take(32).enumerate().filter(|(bit, _)| number >> bit & 1 == 1);
+    let down = chosen.fold(0, |down, (_, direction)| down ^ direction);
+    let part = |digits: u32, (moved, other): (u32, u32)| {
+        // Any digits that have nothing to do with one another.
+        let finer = (4 * moved + other + 1).wrapping_mul(0x9e37_79b9) >> 4;
+        let moved = [0, 2, 3, 1][moved as usize % 4] << 28 | finer;
+        let moved = if digits >> 30 & 1 == 1 { !moved } else { moved };
+        (f64::from(digits ^ (moved & 0x3fff_ffff)) + 0.5) / 4_294_967_296.0 - 0.5
+    };
+    let (column, row) = place;
+    DVec2::new(part(number.reverse_bits(), (row, column)), part(down, (column, row)))
 }
 
 /// An exposed picture before anything is done to it: XYZ in cd/m², row by row from the top.

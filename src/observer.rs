@@ -127,6 +127,14 @@ impl View {
         Self { tetrad: Tetrad { event, ..self.tetrad }, ..*self }
     }
 
+    /// What each eye sees whose picture is in this one, from left to right, and its columns.
+    pub fn eyes(&self) -> impl Iterator<Item = (Self, u32)> + use<> {
+        let width = self.optics.width() as u32;
+        let left = Self { right: None, ..*self };
+        let right = self.right.map(|event| Self { tetrad: Tetrad { event, ..self.tetrad }, ..left });
+        std::iter::once(left).chain(right).map(move |view| (view, width))
+    }
+
     /// The picture of the eye to whom a pixel belongs, and the pixel in it: samples beside a pixel are of the same eye.
     #[inline]
     pub fn of_pixel(&self, pixel: DVec2) -> (Self, DVec2) {

@@ -165,7 +165,7 @@ fn pictures_too_small_for_a_film_can_be_made_alone() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
     let chart =
-        terrell(&[&["chart"], &small[..], &["--runs", "1", "--reference", "2", "--out", out]].concat());
+        terrell(&[&["chart"], &small[..], &["--runs", "1", "--reference", "8", "--out", out]].concat());
     assert!(chart.status.success(), "{}", said(&chart));
 }
 

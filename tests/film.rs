@@ -7,7 +7,7 @@ use crate::support::{
 use glam::{DMat3, DVec2, DVec3};
 use terrell::color::{RGB_FROM_XYZ, XYZ_FROM_RGB, srgb_decode, srgb_encode};
 use terrell::exposure::{Sampling, expose, first_hits};
-use terrell::film::{Brightness, Development, Negative, Reconstruction};
+use terrell::film::{Brightness, Development, Negative, Reconstruction, scattered};
 use terrell::scene::Scene;
 use terrell::spectrum::Wavelengths;
 
@@ -67,13 +67,28 @@ fn samples_lie_evenly_about_the_centre() {
     }
 }
 
+/// Of samples that lie as densely as the filter weighs, the number up to one is the weight up to there.
+#[test]
+fn weight_up_to_a_sample_is_its_part_of_all() {
+    for filter in FILTERS {
+        let samples = 1000;
+        for (number, offset) in filter.offsets(samples).iter().enumerate().step_by(37) {
+            let steps = 20_000;
+            let width = (offset.x + 2.0) / f64::from(steps);
+            let weight: f64 =
+                (0..steps).map(|i| filter.density(-2.0 + (f64::from(i) + 0.5) * width) * width).sum();
+            near(weight, (number as f64 + 0.5) / f64::from(samples), 2e-4);
+        }
+        near(filter.density(1.51) + filter.density(-1.51), 0.0, 0.0);
+    }
+}
+
 /// Of so many boxes of equal area, however long and narrow, each has one of the samples.
 #[test]
 fn scattered_samples_fill_all_boxes_wherever_they_stop() {
     for place in [(0, 0), (1, 0), (2, 3), (3, 1)] {
         for level in 0..=8 {
-            let samples: Vec<DVec2> =
-                (0..1 << level).map(|number| Reconstruction::Box.scattered(number, place) + 0.5).collect();
+            let samples: Vec<DVec2> = (0..1 << level).map(|number| scattered(number, place) + 0.5).collect();
             for across in 0..=level {
                 let (columns, rows) = (1_usize << across, 1_usize << (level - across));
                 let mut filled = vec![false; columns * rows];
@@ -82,8 +97,8 @@ fn scattered_samples_fill_all_boxes_wherever_they_stop() {
                 }
                 assert!(filled.iter().all(|filled| *filled), "{place:?}, {columns} x {rows}");
             }
-            for filter in FILTERS.into_iter().filter(|_| level >= 2) {
-                let mean = (0..1 << level).map(|number| filter.scattered(number, place)).sum::<DVec2>();
+            if level >= 2 {
+                let mean = (0..1 << level).map(|number| scattered(number, place)).sum::<DVec2>();
                 near(mean.length() / f64::from(1 << level), 0.0, 1e-9);
             }
         }
@@ -96,7 +111,7 @@ fn four_samples_of_four_pixels_lie_in_sixteen_columns() {
     for column in 0..4 {
         let mut filled = [false; 16];
         for (row, number) in (0..4).flat_map(|row| (0..4).map(move |number| (row, number))) {
-            filled[((Reconstruction::Box.scattered(number, (column, row)).x + 0.5) * 16.0) as usize] = true;
+            filled[((scattered(number, (column, row)).x + 0.5) * 16.0) as usize] = true;
         }
         assert_eq!(filled, [true; 16]);
     }

@@ -7,12 +7,13 @@ use crate::support::{
 use glam::{DVec2, DVec3};
 use std::path::Path;
 use terrell::error::Report;
-use terrell::exposure::{Sampling, expose};
-use terrell::film::{Negative, Reconstruction};
+use terrell::exposure::{Sampling, expose, expose_settled};
+use terrell::film::{Development, Negative, Reconstruction};
 use terrell::lens::Lens;
 use terrell::manifest;
 use terrell::output::read_png;
 use terrell::render::{Step, render};
+use terrell::scene::Scene;
 use terrell::spacetime::Velocity;
 use terrell::stereo::{Layout, Side, Stereo, anaglyph};
 
@@ -55,6 +56,18 @@ fn eyes_that_are_not_apart_see_what_one_eye_sees() {
         for side in Side::BOTH {
             assert_eq!(half(&both, side), alone.xyz, "{side:?}");
         }
+        // Under a tolerance pixels share what is measured, but not from one eye to the other.
+        let development = Development::new(100.0, 1.0);
+        let settled = |scene: &Scene, width: u32| {
+            let view = scene.observer.view(0.3, width, 30);
+            expose_settled(&scene.lit(), &view, &sampling(width, 30), &development, 3.0)
+        };
+        let (alone, both) = (settled(&one, 40), settled(&two, 80));
+        for side in Side::BOTH {
+            assert_eq!(half(&both.negative, side), alone.negative.xyz, "{side:?}");
+        }
+        close(both.error.mean, alone.error.mean, 1e-12);
+        assert_eq!(both.error.p99, alone.error.p99);
     }
 }
 

@@ -47,6 +47,7 @@ mod radiance;
 mod seeing;
 mod settle;
 mod shadow;
+mod shared;
 mod sheet;
 mod sky;
 mod solid;

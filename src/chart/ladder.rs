@@ -13,6 +13,8 @@ pub enum Method {
     Everything,
     /// Each pixel until it is within this of the converged one, CIEDE2000.
     Tolerance(f64),
+    /// As what others are compared with.
+    Converged,
 }
 
 /// A setting.
@@ -44,7 +46,7 @@ pub fn reference(scene: &Scene, plan: &Plan, samples: u32) -> Setting {
     Setting {
         series: "reference",
         label: format!("{samples} samples, {REFERENCE_WAVELENGTHS} wavelengths"),
-        method: Method::Planned,
+        method: Method::Converged,
         sampling: Sampling { samples, wavelengths: REFERENCE_WAVELENGTHS, ..plan.sampling },
         ..default(scene, plan)
     }

@@ -7,7 +7,7 @@ pub use draw::{csv, svg};
 pub use ladder::{Method, Setting, ladder, reference};
 
 use crate::color::{Lab, ciede2000};
-use crate::exposure::{Uncertainty, expose_lit, expose_settled};
+use crate::exposure::{Uncertainty, expose_converged, expose_lit, expose_settled};
 use crate::film::{Development, Negative};
 use crate::scene::Scene;
 use crate::trace::Lit;
@@ -83,7 +83,8 @@ impl Subject<'_> {
             let settled = expose_settled(&lit, &view, sampling, &self.development, tolerance);
             return (settled.negative, Some(settled.error), settled.samples);
         }
-        (expose_lit(&lit, &view, sampling), None, f64::from(sampling.samples))
+        let expose = if setting.method == Method::Converged { expose_converged } else { expose_lit };
+        (expose(&lit, &view, sampling), None, f64::from(sampling.samples))
     }
 
     /// Measures all settings against the reference, `runs` times each. They take turns, so that what else the machine does

@@ -23,8 +23,8 @@ pub(super) struct ChartArgs {
     /// How often each setting is timed
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000))]
     runs: u32,
-    /// Samples per pixel of the reference
-    #[arg(long, value_name = "N", default_value = "512", value_parser = clap::value_parser!(u32).range(2..=65536))]
+    /// Samples per pixel of the reference, shared by neighbouring pixels; the next power of two is taken
+    #[arg(long, value_name = "N", default_value = "512", value_parser = clap::value_parser!(u32).range(8..=1024))]
     reference: u32,
     /// The folder for `chart.svg` and `chart.csv`, instead of the manifest's
     #[arg(long, value_name = "FOLDER")]
@@ -59,9 +59,9 @@ pub(super) fn run(args: &ChartArgs) -> Result<(), Error> {
     write(&trial, "")?;
     std::fs::remove_file(&trial).map_err(|error| Error::machine(&trial, "removing", error))?;
     let subject = Subject { scene: &scene, tau: exposure.tau, development };
-    let samples = args.reference;
+    let samples = args.reference.next_power_of_two();
     let (reference, ..) = subject.expose(&chart::reference(&scene, &plan, samples));
-    let (half, ..) = subject.expose(&chart::reference(&scene, &plan, (samples / 2).max(1)));
+    let (half, ..) = subject.expose(&chart::reference(&scene, &plan, samples / 2));
     let doubt = Deviation::between(&half, &reference, &development);
 
     let gauge = ProgressBar::new(1000);
@@ -90,7 +90,7 @@ fn named(one: &Measured) -> String {
         _ if setting.default => format!("the default, {}", setting.label),
         Method::Tolerance(tolerance) => format!("--tolerance {tolerance}"),
         Method::Everything => setting.series.to_owned(),
-        Method::Planned => format!("{} {}", setting.series, setting.label),
+        Method::Planned | Method::Converged => format!("{} {}", setting.series, setting.label),
     }
 }
 

@@ -2,10 +2,13 @@
 
 mod progressive;
 mod settle;
+mod shared;
 mod spectral;
+mod square;
 
 pub use progressive::{Grain, expose_coarse_to_fine};
 pub use settle::{Settled, Uncertainty, expose_settled, expose_settled_until};
+pub use shared::expose_converged;
 pub use spectral::{Bands, expose_spectral, middles};
 
 use crate::film::{Negative, Reconstruction};
@@ -103,7 +106,7 @@ impl<'a, const N: usize> Exposing<'a, N> {
             view,
             wavelengths: Wavelengths::new(),
             offsets: sampling.reconstruction.offsets(sampling.samples),
-            phases: (0..sampling.samples).map(phase).collect(),
+            phases: (0..sampling.samples).map(|number| phase(number, 0)).collect(),
             share: 1.0 / f64::from(sampling.samples),
         }
     }
@@ -159,13 +162,13 @@ pub(crate) fn expose_tiles(
 }
 
 /// The phase of a pixel's sample: where colours are parted each takes other wavelengths. Sobol's third dimension, as places in the
-/// pixel are the first two.
-fn phase(number: u32) -> f64 {
+/// pixel are the first two; all digits of `moved` move it.
+fn phase(number: u32, moved: u32) -> f64 {
     let directions = std::iter::successors(Some((1_u32 << 31, 3_u32 << 30)), |(last, direction)| {
         Some((*direction, direction ^ last ^ (last >> 2)))
     });
     let chosen = directions.take(32).enumerate().filter(|(bit, _)| number >> bit & 1 == 1);
-    let digits = chosen.fold(0x5555_5555, |digits, (_, (direction, _))| digits ^ direction);
+    let digits = chosen.fold(0x5555_5555 ^ moved, |digits, (_, (direction, _))| digits ^ direction);
     (f64::from(digits) + 0.5) / 4_294_967_296.0
 }
 

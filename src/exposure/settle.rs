@@ -4,37 +4,34 @@
 //! enough. What is not settled is measured again, as finely as follows from that. Every pixel decides by itself and by what its
 //! neighbours were in the pass before, so the picture is the same on any number of threads.
 
-use super::{BRIGHTEST, Sampling, by_pixel_until, phase};
+use super::Sampling;
+use super::shared::{Grid, beside, evenly, eyes};
+use super::square::{Around, FIRST, MOST, Measuring, Square};
 use crate::color::{Discrimination, Lab};
 use crate::film::{Development, Negative};
 use crate::observer::View;
-use crate::spectrum::Wavelengths;
 use crate::stop::Stop;
-use crate::trace::{Cone, Lit};
-use glam::{DVec2, DVec3};
+use crate::trace::Lit;
+use glam::DVec3;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::array::from_fn;
 
-/// Samples of the first pass; the others double them.
-const FIRST: u32 = 4;
-/// Most samples of a pixel.
-const MOST: u32 = 1024;
 /// A pass has at most so many times the samples of the one before: the fewer there are, the less they say how many it takes.
-const GROWTH: f64 = 4.0;
-/// Footprints of textures are at most as wide as for so many samples: wider ones blur, which no sample tells.
-const SHARP: u32 = 16;
+const GROWTH: u32 = 4;
 /// How far the mean of n samples is off at an edge, at least, in parts of `σ n^-3/4`. (Of random samples it would be `σ n^-1/2`.)
-const SPREAD: f64 = 0.8;
+const SPREAD: f64 = 0.6;
 /// The same in parts of the difference between the means of two halves of the samples.
 const HALVES: f64 = 0.6;
 /// So many columns and rows away what is met matters to a pixel that has been looked at but once.
 const REACH: usize = 2;
 /// The part of a neighbour's spread that is a pixel's own, once it has been looked at again.
-const DOUBT: f64 = 0.5;
+const DOUBT: f64 = 0.25;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
 const SAFETY: f64 = 1.7;
 /// The error of a rule over wavelengths, in parts of its difference from that with half of them.
 const RULES: f64 = 0.2;
+/// The part of the error by wavelengths that a square around a pixel may have without being looked at for that.
+const NEGLIGIBLE: f64 = 0.05;
 /// The part of the tolerance that may go to the wavelengths.
 const RESOLVED: f64 = 0.4;
 
@@ -70,82 +67,6 @@ impl Uncertainty {
     }
 }
 
-/// A pixel as far as it is known.
-#[derive(Debug, Clone, Copy)]
-struct Pixel {
-    sums: Sums,
-    // The standard deviation of its samples, XYZ.
-    spread: DVec3,
-    // How different the two halves of its samples look.
-    halves: f64,
-    wavelengths: u32,
-    // All samples that were taken of it, also those of fewer wavelengths.
-    taken: u32,
-    // What its samples may be off: as they say themselves, and as their neighbours' make it doubtful.
-    own: f64,
-    unsettled: f64,
-    // What its wavelengths may be off.
-    unresolved: f64,
-}
-
-impl Pixel {
-    fn error(&self) -> f64 {
-        self.unsettled + self.unresolved
-    }
-
-    /// As many wavelengths as it needs: the error of a rule falls with the square of their number.
-    fn wavelengths_for(&self, error: f64) -> u32 {
-        let (mut wavelengths, mut unresolved) = (self.wavelengths, self.unresolved);
-        while unresolved > error && wavelengths < 64 && wavelengths > 3 {
-            wavelengths *= 2;
-            unresolved *= 0.25;
-        }
-        wavelengths
-    }
-
-    /// How many samples and wavelengths it is to have next; none if it needs nothing more.
-    fn more(&self, error: f64) -> Option<(u32, u32)> {
-        let for_wavelengths = RESOLVED * error;
-        let room = error - self.unresolved.min(for_wavelengths);
-        let times = libm::pow((self.unsettled / room).max(1.0), 4.0 / 3.0).min(GROWTH);
-        // After the first pass rather too few: then it is looked at again, and what is too much is never given back.
-        let doublings = match libm::log2(times) {
-            none if none <= 0.0 => 0,
-            some if self.sums.samples == FIRST => some.ceil() as u32,
-            some => (some as u32).max(1),
-        };
-        let samples = (self.sums.samples << doublings).min(MOST);
-        let wavelengths = self.wavelengths_for(for_wavelengths);
-        let better = samples > self.sums.samples || wavelengths > self.wavelengths;
-        (self.error() > error && better).then_some((samples, wavelengths))
-    }
-}
-
-/// Sums over samples, XYZ.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    xyz: DVec3,
-    squared: DVec3,
-    // Of the first half of the samples; both halves are evenly spread.
-    half: DVec3,
-    // By a rule of half as many wavelengths.
-    coarse: DVec3,
-    samples: u32,
-}
-
-impl Sums {
-    fn mean(&self) -> DVec3 {
-        self.xyz / f64::from(self.samples)
-    }
-
-    /// The standard deviation of the samples.
-    fn spread(&self) -> DVec3 {
-        let (mean, share) = (self.mean(), 1.0 / f64::from(self.samples));
-        let variance = (self.squared * share - mean * mean).max(DVec3::ZERO);
-        DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
-    }
-}
-
 /// Exposes a picture until 99 of 100 pixels are within `tolerance` (CIEDE2000) of the converged one, as `development` shows
 /// it. Of `sampling` only the size, the filter, and three wavelengths (where they are enough) count.
 pub fn expose_settled(
@@ -167,187 +88,215 @@ pub fn expose_settled_until(
     development: &Development,
     (tolerance, stop): (f64, &Stop),
 ) -> Option<Settled> {
-    let lit = &lit.seen_from(view.tetrad.event);
-    let measuring = Measuring::new(lit, view, sampling, development);
     let wavelengths = if sampling.wavelengths == 3 { 3 } else { 16 };
-    let first = |column, row| measuring.pixel((column, row), None, FIRST, wavelengths);
-    let mut pixels = by_pixel_until((sampling.width, sampling.height), stop, first, |_, _| {})?;
-    let mut looked_at: Vec<usize> = (0..pixels.len()).collect();
-    loop {
-        let unsettled = |number: &usize| measuring.unsettled(&pixels, *number);
-        let unsettled: Vec<f64> = looked_at.par_iter().map(unsettled).collect();
-        for (number, unsettled) in looked_at.iter().zip(unsettled) {
-            pixels[*number].unsettled = unsettled;
-        }
-        let more = |number: usize| Some((number, pixels[number].more(tolerance / SAFETY)?));
-        let open: Vec<(usize, (u32, u32))> = looked_at.into_iter().filter_map(more).collect();
-        if open.is_empty() {
-            break;
-        }
-        let finer = |(number, (samples, wavelengths)): &(usize, (u32, u32))| {
-            let place = measuring.place(*number);
-            (!stop.is_set()).then(|| measuring.pixel(place, Some(&pixels[*number]), *samples, *wavelengths))
-        };
-        let finer: Vec<Pixel> = open.par_iter().map(finer).collect::<Option<_>>()?;
-        // What they have met may be near to others, too.
-        let mut near = vec![false; pixels.len()];
-        for ((number, _), pixel) in open.iter().zip(finer) {
-            pixels[*number] = pixel;
-            measuring.around(*number, REACH).for_each(|number| near[number] = true);
-        }
-        looked_at = (0..pixels.len()).filter(|number| near[*number]).collect();
+    let (mut taken, mut errors, mut negatives) = (0, Vec::new(), Vec::new());
+    for (view, grid) in eyes(view, sampling) {
+        let lit = lit.seen_from(view.tetrad.event);
+        let measuring = Measuring::new(&lit, &view, sampling.reconstruction);
+        let squares = evenly(&measuring, grid, FIRST, wavelengths, stop)?;
+        let doubts = vec![DVec3::ZERO; squares.len()];
+        let pixels = vec![Pixel::default(); squares.len()];
+        let error = tolerance / SAFETY;
+        let mut settling = Settling { measuring, development, grid, error, squares, doubts, pixels };
+        settling.settle(stop)?;
+        let Settling { squares, pixels, .. } = settling;
+        let shown = (0..squares.len()).filter(|number| grid.shows(*number)).map(|number| pixels[number]);
+        errors.extend(shown.map(|pixel| SAFETY * (pixel.own + pixel.unresolved)));
+        taken += squares.iter().map(|square| u64::from(square.taken)).sum::<u64>();
+        negatives.push(grid.negative(&squares));
     }
-    let taken: f64 = pixels.iter().map(|pixel| f64::from(pixel.taken)).sum();
-    Some(Settled {
-        error: Uncertainty::of(pixels.iter().map(|pixel| SAFETY * (pixel.own + pixel.unresolved)).collect()),
-        samples: taken / pixels.len().max(1) as f64,
-        negative: Negative {
-            width: sampling.width,
-            height: sampling.height,
-            xyz: pixels
-                .iter()
-                .map(|pixel| pixel.sums.mean().min(DVec3::splat(BRIGHTEST)).as_vec3().to_array())
-                .collect(),
-        },
-    })
+    let samples = taken as f64 / errors.len().max(1) as f64;
+    Some(Settled { negative: beside(&negatives), error: Uncertainty::of(errors), samples })
 }
 
-/// The rules over wavelengths that a pixel may need.
-#[derive(Default)]
-struct Rules {
-    three: Wavelengths<3>,
-    sixteen: Wavelengths<16>,
-    more: Wavelengths<32>,
-    most: Wavelengths<64>,
+/// How far a pixel is settled.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pixel {
+    // How different the two halves of its samples look.
+    halves: f64,
+    // What its samples may be off: as they say themselves, and as its neighbours' make it doubtful.
+    own: f64,
+    unsettled: f64,
+    // What its wavelengths may be off.
+    unresolved: f64,
 }
 
-/// How pixels are measured.
-struct Measuring<'a> {
-    lit: &'a Lit<'a>,
-    view: &'a View,
-    sampling: &'a Sampling,
+/// A picture on the way.
+struct Settling<'a> {
+    measuring: Measuring<'a>,
     development: &'a Development,
-    rules: Rules,
-    // Of each place in squares of 4 by 4 pixels, by the logarithm of the number of samples: the later half of that many.
-    offsets: [[[OnceLock<Vec<DVec2>>; 1 + MOST.ilog2() as usize]; 4]; 4],
+    grid: Grid,
+    // That is asked for.
+    error: f64,
+    squares: Vec<Square>,
+    // The spreads of squares, XYZ, as far as those around make them doubtful.
+    doubts: Vec<DVec3>,
+    pixels: Vec<Pixel>,
 }
 
-impl<'a> Measuring<'a> {
-    fn new(lit: &'a Lit<'a>, view: &'a View, sampling: &'a Sampling, development: &'a Development) -> Self {
-        Self { lit, view, sampling, development, rules: Rules::default(), offsets: Default::default() }
-    }
+/// Samples and wavelengths that a square is to have.
+type Finer = (u32, u32);
 
-    /// A pixel with so many samples and wavelengths, of which those before are not taken again.
-    fn pixel(&self, place: (usize, usize), before: Option<&Pixel>, samples: u32, wavelengths: u32) -> Pixel {
-        match wavelengths {
-            3 => self.with(place, before, samples, &self.rules.three),
-            16 => self.with(place, before, samples, &self.rules.sixteen),
-            32 => self.with(place, before, samples, &self.rules.more),
-            _ => self.with(place, before, samples, &self.rules.most),
-        }
-    }
-
-    fn with<const N: usize>(
-        &self,
-        (column, row): (usize, usize),
-        before: Option<&Pixel>,
-        samples: u32,
-        rule: &Wavelengths<N>,
-    ) -> Pixel {
-        let (view, centre) = self.view.of_pixel(DVec2::new(column as f64 + 0.5, row as f64 + 0.5));
-        let set = (column % 4, row % 4);
-        let spacing = (1.0 / f64::from(samples.max(SHARP))).sqrt();
-        let known = before.filter(|before| before.wavelengths == N as u32);
-        let mut sums = known.map_or_else(Sums::default, |before| before.sums);
-        let taken = before.map_or(0, |before| before.taken) + samples - sums.samples;
-        while sums.samples < samples {
-            let numbers = sums.samples..FIRST.max(2 * sums.samples);
-            for (number, offset) in numbers.clone().zip(self.offsets(set, numbers.end)) {
-                if number == numbers.end / 2 {
-                    sums.half = sums.xyz;
-                }
-                let place = centre + *offset;
-                if !view.shows(place) {
-                    continue;
-                }
-                let (ray, cone) = view.sight(place, spacing);
-                let light = self.lit.seen_within(&ray, Cone { phase: phase(number), ..cone }, rule);
-                let one = rule.xyz(&light.radiance) + light.lines;
-                sums.xyz += one;
-                sums.squared += one * one;
-                sums.coarse += rule.coarse_xyz(&light.radiance) + light.lines;
+impl Settling<'_> {
+    /// Measures what is not settled until all is, or has as much as anything may have; none if it was stopped.
+    fn settle(&mut self, stop: &Stop) -> Option<()> {
+        let mut near: Vec<usize> = (0..self.squares.len()).collect();
+        loop {
+            let open = self.look_at(&near);
+            if open.is_empty() {
+                return Some(());
             }
-            sums.samples = numbers.end;
+            let finer = |(number, (samples, wavelengths)): &(usize, Finer)| {
+                let (before, middle) = (&self.squares[*number], self.grid.middle(*number));
+                (!stop.is_set()).then(|| self.measuring.square(middle, Some(before), *samples, *wavelengths))
+            };
+            let finer: Vec<Square> = open.par_iter().map(finer).collect::<Option<_>>()?;
+            // What they have met may be near to others, too.
+            let mut marked = vec![false; self.squares.len()];
+            for ((number, _), square) in open.iter().zip(finer) {
+                self.squares[*number] = square;
+                self.grid.around(*number, REACH + 1).for_each(|number| marked[number] = true);
+            }
+            near = (0..marked.len()).filter(|number| marked[*number]).collect();
         }
-        let (xyz, share) = (sums.mean(), 1.0 / f64::from(samples));
+    }
+
+    /// How far these pixels are settled, and the squares that are to have more samples and wavelengths for that, with how many.
+    fn look_at(&mut self, near: &[usize]) -> Vec<(usize, Finer)> {
+        let doubts: Vec<DVec3> = near.par_iter().map(|number| self.doubt(*number)).collect();
+        for (number, doubt) in near.iter().zip(doubts) {
+            self.doubts[*number] = doubt;
+        }
+        let shown: Vec<usize> = near.iter().copied().filter(|number| self.grid.shows(*number)).collect();
+        let pixels: Vec<Pixel> = shown.par_iter().map(|number| self.pixel(*number)).collect();
+        for (number, pixel) in shown.iter().zip(pixels) {
+            self.pixels[*number] = pixel;
+        }
+        let unsettled: Vec<f64> = shown.par_iter().map(|number| self.unsettled(*number)).collect();
+        for (number, unsettled) in shown.iter().zip(unsettled) {
+            self.pixels[*number].unsettled = unsettled;
+        }
+        let wanted: Vec<_> = shown.par_iter().flat_map_iter(|number| self.wanted(*number)).collect();
+        let mut most: Vec<Finer> = vec![(0, 0); self.squares.len()];
+        for (number, (samples, wavelengths)) in wanted {
+            let (more, finer) = &mut most[number];
+            (*more, *finer) = (samples.max(*more), wavelengths.max(*finer));
+        }
+        most.into_iter().enumerate().filter(|(_, (samples, _))| *samples > 0).collect()
+    }
+
+    /// How far the samples of a square lie apart, XYZ, or those of squares near it. (A few samples may all miss an edge.)
+    fn doubt(&self, number: usize) -> DVec3 {
+        let own = &self.squares[number];
+        let (reach, part) = if own.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
+        let around = self.grid.around(number, reach).map(|number| self.squares[number].spread * part);
+        around.fold(own.spread, DVec3::max)
+    }
+
+    fn pixel(&self, number: usize) -> Pixel {
+        let xyz = self.grid.xyz(&self.squares, number);
         let seen = Discrimination::around(self.lab(xyz));
-        let spread = sums.spread();
+        let spread = self.off(number, |number| self.squares[number].spread);
         let (mut halves, mut own) = (0.0, 0.0);
         if spread != DVec3::ZERO {
-            halves = 2.0 * seen.distance(self.lab(sums.half * (2.0 * share)));
-            own = (HALVES * halves).max(self.swing(&seen, xyz, spread, samples));
+            let half = self.grid.sum(number, |giver, i| self.squares[giver].half[8 - i].as_dvec3());
+            halves = 2.0 * seen.distance(self.lab(half));
+            own = (HALVES * halves).max(self.swing(&seen, xyz, spread));
         }
-        let unresolved = if N > 3 { RULES * seen.distance(self.lab(sums.coarse * share)) } else { 0.0 };
-        Pixel { sums, spread, halves, wavelengths: N as u32, taken, own, unsettled: own, unresolved }
+        let coarser =
+            self.grid.sum(number, |giver, i| self.squares[giver].coarser * self.measuring.parts.weight[i]);
+        let unresolved =
+            if coarser == DVec3::ZERO { 0.0 } else { RULES * seen.distance(self.lab(xyz + coarser)) };
+        Pixel { halves, own, unsettled: own, unresolved }
     }
 
-    /// Where the later half of so many samples lie.
-    fn offsets(&self, set: (usize, usize), samples: u32) -> &[DVec2] {
-        self.offsets[set.1][set.0][samples.ilog2() as usize].get_or_init(|| {
-            let first = if samples == FIRST { 0 } else { samples / 2 };
-            let of = |number| self.sampling.reconstruction.scattered(number, (set.0 as u32, set.1 as u32));
-            (first..samples).map(of).collect()
-        })
+    /// How far a pixel's samples may be off, XYZ, if those of the squares around spread so.
+    fn off(&self, number: usize, spread: impl Fn(usize) -> DVec3) -> DVec3 {
+        let variance = self.grid.sum(number, |giver, i| self.part(giver, i, spread(giver)));
+        SPREAD * DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
     }
 
-    fn place(&self, number: usize) -> (usize, usize) {
-        let width = self.sampling.width as usize;
-        (number % width, number / width)
+    /// What a square adds to the variance of a pixel that has it as its i-th.
+    fn part(&self, giver: usize, i: usize, spread: DVec3) -> DVec3 {
+        let share = 1.0 / f64::from(self.squares[giver].samples);
+        spread * spread * (self.measuring.parts.squared[i] * share * share.sqrt())
     }
 
-    /// The numbers of the pixels up to so many columns and rows away.
-    fn around(&self, number: usize, reach: usize) -> impl Iterator<Item = usize> + use<> {
-        let (width, height) = (self.sampling.width as usize, self.sampling.height as usize);
-        let (column, row) = self.place(number);
-        let columns = column.saturating_sub(reach)..(column + reach + 1).min(width);
-        let rows = row.saturating_sub(reach)..(row + reach + 1).min(height);
-        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far samples lie apart in
+    /// the squares around, or in those near them.
+    fn unsettled(&self, number: usize) -> f64 {
+        let own = &self.pixels[number];
+        let off = self.off(number, |number| self.doubts[number]);
+        if off == DVec3::ZERO {
+            return 0.0;
+        }
+        let (mut squared, mut count) = (0.0, 0.0);
+        for near in self.grid.around(number, 1).filter(|near| self.grid.shows(*near)) {
+            let pixel = &self.pixels[near];
+            let samples = f64::from(self.squares[near].samples) / f64::from(self.squares[number].samples);
+            squared += pixel.halves * pixel.halves * samples * samples.sqrt();
+            count += 1.0;
+        }
+        let xyz = self.grid.xyz(&self.squares, number);
+        let seen = Discrimination::around(self.lab(xyz));
+        own.own.max(HALVES * f64::sqrt(squared / count)).max(self.swing(&seen, xyz, off))
+    }
+
+    /// How different a pixel looks that is off by so much (XYZ).
+    fn swing(&self, seen: &Discrimination, xyz: DVec3, off: DVec3) -> f64 {
+        let to = |xyz: DVec3| seen.distance(self.lab(xyz));
+        to(xyz + off).max(to((xyz - off).max(DVec3::ZERO)))
     }
 
     fn lab(&self, xyz: DVec3) -> Lab {
         Lab::of_rgb(self.development.display(xyz))
     }
 
-    /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far its samples lie apart,
-    /// or those of pixels near it. (A few samples may all miss an edge; and beside something very bright a little of it counts.)
-    fn unsettled(&self, pixels: &[Pixel], number: usize) -> f64 {
-        let own = &pixels[number];
-        let (reach, part) = if own.sums.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
-        let neighbours = self.around(number, reach).map(|number| pixels[number].spread * part);
-        let spread = neighbours.fold(own.spread, DVec3::max);
-        if spread == DVec3::ZERO {
-            return 0.0;
+    /// The squares that are to have more for a pixel, with how many samples and wavelengths.
+    fn wanted(&self, number: usize) -> Vec<(usize, Finer)> {
+        let pixel = &self.pixels[number];
+        if pixel.unsettled + pixel.unresolved <= self.error {
+            return Vec::new();
         }
-        let (mut squared, mut count) = (0.0, 0.0);
-        for number in self.around(number, 1) {
-            let pixel = &pixels[number];
-            let samples = f64::from(pixel.sums.samples) / f64::from(own.sums.samples);
-            squared += pixel.halves * pixel.halves * samples * samples.sqrt();
-            count += 1.0;
+        let for_wavelengths = RESOLVED * self.error;
+        let room = self.error - pixel.unresolved.min(for_wavelengths);
+        let givers = self.grid.givers(number);
+        let mut samples = givers.map(|giver| giver.map_or(0, |giver| self.squares[giver].samples));
+        let mut parts: Around<f64> =
+            from_fn(|i| givers[i].map_or(0.0, |giver| self.part(giver, i, self.doubts[giver]).element_sum()));
+        let most = samples.map(|samples| (GROWTH * samples).min(MOST));
+        // Always that which gains most by each sample more.
+        let enough = parts.iter().sum::<f64>() * (room / pixel.unsettled).powi(2).min(1.0);
+        while parts.iter().sum::<f64>() > enough {
+            let gain = |i: usize| if samples[i] < most[i] { parts[i] / f64::from(samples[i]) } else { 0.0 };
+            let best = (0..9).max_by(|one, other| gain(*one).total_cmp(&gain(*other))).unwrap_or(4);
+            if gain(best) == 0.0 {
+                break;
+            }
+            samples[best] *= 2;
+            parts[best] *= 0.5 * std::f64::consts::FRAC_1_SQRT_2;
         }
-        let unsettled = own.own.max(HALVES * f64::sqrt(squared / count));
-        if spread == own.spread {
-            return unsettled;
-        }
-        let xyz = own.sums.mean();
-        unsettled.max(self.swing(&Discrimination::around(self.lab(xyz)), xyz, spread, own.sums.samples))
+        let wavelengths = self.wavelengths(number, &givers, for_wavelengths);
+        let all = (0..9).filter_map(|i| Some((givers[i]?, (samples[i], wavelengths[i]))));
+        let more = |(giver, (samples, wavelengths)): &(usize, Finer)| {
+            *samples > self.squares[*giver].samples || *wavelengths > self.squares[*giver].wavelengths
+        };
+        all.filter(more).collect()
     }
 
-    /// How different a pixel looks by what the mean of so many samples with a spread (XYZ) may be off.
-    fn swing(&self, seen: &Discrimination, xyz: DVec3, spread: DVec3, samples: u32) -> f64 {
-        let share = 1.0 / f64::from(samples);
-        let off = spread * (SPREAD * (share * share.sqrt()).sqrt());
-        let to = |xyz: DVec3| seen.distance(self.lab(xyz));
-        to(xyz + off).max(to((xyz - off).max(DVec3::ZERO)))
+    /// As many wavelengths as the squares around need: the error of a rule falls with the square of their number.
+    fn wavelengths(&self, number: usize, givers: &Around<Option<usize>>, error: f64) -> Around<u32> {
+        let now = givers.map(|giver| giver.map_or(0, |giver| self.squares[giver].wavelengths));
+        let times = (self.pixels[number].unresolved / error).sqrt();
+        if times <= 1.0 {
+            return now;
+        }
+        let off = |i: usize| {
+            givers[i]
+                .map_or(0.0, |giver| self.squares[giver].coarser.length() * self.measuring.parts.weight[i])
+        };
+        let all: f64 = (0..9).map(off).sum();
+        let times = if times > 2.0 { 4 } else { 2 };
+        from_fn(|i| if off(i) > NEGLIGIBLE * all { (now[i] * times).min(64) } else { now[i] })
     }
 }
