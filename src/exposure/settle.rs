@@ -32,6 +32,8 @@ const SAFETY: f64 = 1.7;
 const RULES: f64 = 0.2;
 /// The part of the error by wavelengths that a square around a pixel may have without being looked at for that.
 const NEGLIGIBLE: f64 = 0.05;
+/// Of so many pixels it is kept at a time what they want, which takes memory.
+const AT_ONCE: usize = 1 << 16;
 /// The part of the tolerance that may go to the wavelengths.
 const RESOLVED: f64 = 0.4;
 
@@ -142,27 +144,30 @@ impl Settling<'_> {
     fn settle(&mut self, stop: &Stop) -> Option<()> {
         let mut near: Vec<usize> = (0..self.squares.len()).collect();
         loop {
-            let open = self.look_at(&near);
-            if open.is_empty() {
-                return Some(());
-            }
-            let finer = |(number, (samples, wavelengths)): &(usize, Finer)| {
-                let (before, middle) = (&self.squares[*number], self.grid.middle(*number));
-                (!stop.is_set()).then(|| self.measuring.square(middle, Some(before), *samples, *wavelengths))
-            };
-            let finer: Vec<Square> = open.par_iter().map(finer).collect::<Option<_>>()?;
-            // What they have met may be near to others, too.
+            let wanted = self.look_at(&near);
+            // What is met may be near to others, too.
             let mut marked = vec![false; self.squares.len()];
-            for ((number, _), square) in open.iter().zip(finer) {
-                self.squares[*number] = square;
-                self.grid.around(*number, REACH + 1).for_each(|number| marked[number] = true);
+            let open = wanted.iter().enumerate().filter(|(_, (samples, _))| *samples > 0);
+            for (number, _) in open {
+                self.grid.around(number, REACH + 1).for_each(|number| marked[number] = true);
             }
             near = (0..marked.len()).filter(|number| marked[*number]).collect();
+            if near.is_empty() {
+                return Some(());
+            }
+            let (measuring, grid) = (&self.measuring, self.grid);
+            let finer = |((number, square), (samples, wavelengths)): ((usize, &mut Square), Finer)| {
+                if samples > 0 {
+                    *square = measuring.square(grid.middle(number), Some(square), samples, wavelengths);
+                }
+                (!stop.is_set()).then_some(())
+            };
+            self.squares.par_iter_mut().enumerate().zip(wanted).map(finer).collect::<Option<()>>()?;
         }
     }
 
-    /// How far these pixels are settled, and the squares that are to have more samples and wavelengths for that, with how many.
-    fn look_at(&mut self, near: &[usize]) -> Vec<(usize, Finer)> {
+    /// How far these pixels are settled, and what each square is to have for that; nothing if it has enough.
+    fn look_at(&mut self, near: &[usize]) -> Vec<Finer> {
         let doubts: Vec<DVec3> = near.par_iter().map(|number| self.doubt(*number)).collect();
         for (number, doubt) in near.iter().zip(doubts) {
             self.doubts[*number] = doubt;
@@ -176,35 +181,38 @@ impl Settling<'_> {
         for (number, unsettled) in shown.iter().zip(unsettled) {
             self.pixels[*number].unsettled = unsettled;
         }
-        let wanted: Vec<_> = shown.par_iter().flat_map_iter(|number| self.wanted(*number)).collect();
         let mut most: Vec<Finer> = vec![(0, 0); self.squares.len()];
-        for (number, (samples, wavelengths)) in wanted {
-            let (more, finer) = &mut most[number];
-            (*more, *finer) = (samples.max(*more), wavelengths.max(*finer));
+        for some in shown.chunks(AT_ONCE) {
+            let wanted: Vec<_> = some.par_iter().flat_map_iter(|number| self.wanted(*number)).collect();
+            for (number, (samples, wavelengths)) in wanted {
+                let (more, finer) = &mut most[number];
+                (*more, *finer) = (samples.max(*more), wavelengths.max(*finer));
+            }
         }
-        most.into_iter().enumerate().filter(|(_, (samples, _))| *samples > 0).collect()
+        most
     }
 
     /// How far the samples of a square lie apart, XYZ, or those of squares near it. (A few samples may all miss an edge.)
     fn doubt(&self, number: usize) -> DVec3 {
         let own = &self.squares[number];
         let (reach, part) = if own.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
-        let around = self.grid.around(number, reach).map(|number| self.squares[number].spread * part);
-        around.fold(own.spread, DVec3::max)
+        let around = self.grid.around(number, reach).map(|number| self.squares[number].spread() * part);
+        around.fold(own.spread(), DVec3::max)
     }
 
     fn pixel(&self, number: usize) -> Pixel {
         let xyz = self.grid.xyz(&self.squares, number);
         let seen = Discrimination::around(self.lab(xyz));
-        let spread = self.off(number, |number| self.squares[number].spread);
+        let weight = &self.measuring.parts.weight;
+        let spread = self.off(number, |number| self.squares[number].spread());
         let (mut halves, mut own) = (0.0, 0.0);
         if spread != DVec3::ZERO {
-            let half = self.grid.sum(number, |giver, i| self.squares[giver].half[8 - i].as_dvec3());
-            halves = 2.0 * seen.distance(self.lab(half));
+            let halved = |giver: usize, i: usize| self.squares[giver].halved.as_dvec3() * weight[i];
+            halves = 2.0 * seen.distance(self.lab((xyz + self.grid.sum(number, halved)).max(DVec3::ZERO)));
             own = (HALVES * halves).max(self.swing(&seen, xyz, spread));
         }
-        let coarser =
-            self.grid.sum(number, |giver, i| self.squares[giver].coarser * self.measuring.parts.weight[i]);
+        let coarser = |giver: usize, i: usize| self.squares[giver].coarser.as_dvec3() * weight[i];
+        let coarser = self.grid.sum(number, coarser);
         let unresolved =
             if coarser == DVec3::ZERO { 0.0 } else { RULES * seen.distance(self.lab(xyz + coarser)) };
         Pixel { halves, own, unsettled: own, unresolved }
@@ -292,8 +300,9 @@ impl Settling<'_> {
             return now;
         }
         let off = |i: usize| {
-            givers[i]
-                .map_or(0.0, |giver| self.squares[giver].coarser.length() * self.measuring.parts.weight[i])
+            givers[i].map_or(0.0, |giver| {
+                f64::from(self.squares[giver].coarser.length()) * self.measuring.parts.weight[i]
+            })
         };
         let all: f64 = (0..9).map(off).sum();
         let times = if times > 2.0 { 4 } else { 2 };

@@ -1,12 +1,13 @@
 //! Pictures whose pixels share their samples with their neighbours.
 
 use super::square::{Around, FIRST, MOST, Measuring, Square};
-use super::{BRIGHTEST, Sampling, by_pixel_until};
+use super::{BRIGHTEST, Sampling, TILE};
 use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
 use crate::stop::Stop;
 use crate::trace::Lit;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use std::array::from_fn;
 
 /// Exposes a picture that others are compared with: with so many samples in each square of a pixel's size (the next power of two, 4
@@ -49,8 +50,25 @@ pub(super) fn evenly(
     wavelengths: u32,
     stop: &Stop,
 ) -> Option<Vec<Square>> {
-    let of = |column, row| measuring.square(grid.centre(column, row), None, samples, wavelengths);
-    by_pixel_until((grid.columns as u32, grid.rows as u32), stop, of, |_, _| {})
+    let mut squares = vec![Square::default(); grid.columns * grid.rows];
+    let band = |(band, squares): (usize, &mut [Square])| {
+        // Tile by tile, since rays that are near one another meet the same things.
+        for first in (0..grid.columns).step_by(TILE) {
+            for (row, squares) in squares.chunks_mut(grid.columns).enumerate() {
+                for (column, square) in squares.iter_mut().enumerate().skip(first).take(TILE) {
+                    let centre = grid.centre(column, band * TILE + row);
+                    *square = measuring.square(centre, None, samples, wavelengths);
+                }
+            }
+            if stop.is_set() {
+                return None;
+            }
+        }
+        Some(())
+    };
+    let bands = squares.par_chunks_mut(grid.columns * TILE).enumerate().with_max_len(1);
+    bands.map(band).collect::<Option<()>>()?;
+    Some(squares)
 }
 
 /// Squares of a picture and, where filters reach beyond it, beside it.

@@ -60,8 +60,6 @@ struct Sample {
 #[derive(Debug)]
 struct Doubling {
     samples: Vec<Sample>,
-    /// What the weights of the first half are to be multiplied by if that is all there is.
-    halves: Around<f64>,
     /// The digits by which their phases are moved.
     moved: u32,
 }
@@ -80,24 +78,21 @@ impl Doubling {
         let first = if samples == FIRST { 0 } else { samples / 2 };
         let mut samples: Vec<Sample> = (first..samples).map(sample).collect();
         // Weights that do not add up would make an even light uneven.
-        let missing = |samples: &[Sample]| -> Around<f64> {
-            from_fn(|i| {
-                let all: f64 = samples.iter().map(|sample| sample.weights[i]).sum();
-                if all > 0.0 { parts.weight[i] * samples.len() as f64 / all } else { 0.0 }
-            })
-        };
-        let whole = missing(&samples);
+        let count = samples.len() as f64;
+        let missing: Around<f64> = from_fn(|i| {
+            let all: f64 = samples.iter().map(|sample: &Sample| sample.weights[i]).sum();
+            if all > 0.0 { parts.weight[i] * count / all } else { 0.0 }
+        });
         for sample in &mut samples {
-            sample.weights = from_fn(|i| sample.weights[i] * whole[i]);
+            sample.weights = from_fn(|i| sample.weights[i] * missing[i]);
         }
-        let halves = missing(&samples[..samples.len() / 2]);
         // Neighbours that share samples are to have other wavelengths where colours are parted.
-        Self { samples, halves, moved: (4 * set.0 + set.1).wrapping_mul(0x9e37_79b9) }
+        Self { samples, moved: (4 * set.0 + set.1).wrapping_mul(0x9e37_79b9) }
     }
 }
 
 /// A square as far as it is known.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Square {
     pub(super) samples: u32,
     pub(super) wavelengths: u32,
@@ -105,16 +100,23 @@ pub(super) struct Square {
     pub(super) taken: u32,
     /// What it gives to the pixels around, XYZ.
     pub(super) given: Around<Vec3>,
-    /// The same by the first half of its samples.
-    pub(super) half: Around<Vec3>,
-    /// The standard deviation of its samples, XYZ.
-    pub(super) spread: DVec3,
-    /// Its mean by a rule of half as many wavelengths, less its mean.
-    pub(super) coarser: DVec3,
+    /// The mean of the first half of its samples, less that of all, XYZ.
+    pub(super) halved: Vec3,
+    /// Its mean by a rule of half as many wavelengths, less its mean, XYZ.
+    pub(super) coarser: Vec3,
     // Sums over samples, XYZ.
     xyz: DVec3,
     squared: DVec3,
-    coarse: DVec3,
+}
+
+impl Square {
+    /// The standard deviation of its samples, XYZ.
+    pub(super) fn spread(&self) -> DVec3 {
+        let share = 1.0 / f64::from(self.samples);
+        let mean = self.xyz * share;
+        let variance = (self.squared * share - mean * mean).max(DVec3::ZERO);
+        DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
+    }
 }
 
 /// The rules over wavelengths that a square may need.
@@ -169,25 +171,18 @@ impl<'a> Measuring<'a> {
         let spacing = (1.0 / f64::from(samples.max(SHARP))).sqrt();
         let known = before.filter(|before| before.wavelengths == N as u32);
         let mut square = known.copied().unwrap_or(Square {
-            samples: 0,
             wavelengths: N as u32,
             taken: before.map_or(0, |before| before.taken),
-            given: Around::default(),
-            half: Around::default(),
-            spread: DVec3::ZERO,
-            coarser: DVec3::ZERO,
-            xyz: DVec3::ZERO,
-            squared: DVec3::ZERO,
-            coarse: DVec3::ZERO,
+            ..Square::default()
         });
         while square.samples < samples {
             let first = square.samples;
             square.samples = FIRST.max(2 * first);
             let doubling = self.doubling(centre, square.samples);
-            let (mut sums, mut half) = ([DVec3::ZERO; 9], [DVec3::ZERO; 9]);
+            let (mut sums, mut half, mut coarser) = ([DVec3::ZERO; 9], square.xyz, DVec3::ZERO);
             for (number, sample) in doubling.samples.iter().enumerate() {
-                if 2 * number == doubling.samples.len() {
-                    half = sums;
+                if first == 0 && 2 * number == doubling.samples.len() {
+                    half = square.xyz;
                 }
                 let place = centre + sample.offset;
                 if !self.view.shows(place) {
@@ -199,27 +194,24 @@ impl<'a> Measuring<'a> {
                 let one = rule.xyz(&light.radiance) + light.lines;
                 square.xyz += one;
                 square.squared += one * one;
-                square.coarse += rule.coarse_xyz(&light.radiance) + light.lines;
+                coarser += rule.coarse_xyz(&light.radiance) + light.lines - one;
                 for (sum, weight) in sums.iter_mut().zip(sample.weights) {
                     *sum += weight * one;
                 }
             }
             let share = 1.0 / doubling.samples.len() as f64;
-            let mean = |sum: DVec3, share: f64| (sum * share).min(DVec3::splat(BRIGHTEST)).as_vec3();
-            if first == 0 {
-                square.half = from_fn(|i| mean(half[i], doubling.halves[i] * 2.0 * share));
-                square.given = sums.map(|sum| mean(sum, share));
-            } else {
-                square.half = square.given;
-                square.given = from_fn(|i| 0.5 * (square.given[i] + mean(sums[i], share)));
+            let most = DVec3::splat(BRIGHTEST);
+            let mean = |sum: DVec3, share: f64| (sum * share).clamp(-most, most).as_vec3();
+            square.halved = mean(2.0 * half - square.xyz, 1.0 / f64::from(square.samples));
+            // Whatever was known is the other half.
+            let part = if first == 0 { 1.0 } else { 0.5 };
+            let coarser = if N > 3 { mean(coarser, share) } else { Vec3::ZERO };
+            square.coarser += part as f32 * (coarser - square.coarser);
+            for (given, sum) in square.given.iter_mut().zip(sums) {
+                *given += part as f32 * (mean(sum, share) - *given);
             }
         }
         square.taken += samples - known.map_or(0, |before| before.samples);
-        let share = 1.0 / f64::from(samples);
-        let mean = square.xyz * share;
-        square.coarser = if N > 3 { square.coarse * share - mean } else { DVec3::ZERO };
-        let variance = (square.squared * share - mean * mean).max(DVec3::ZERO);
-        square.spread = DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt());
         square
     }
 

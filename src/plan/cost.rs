@@ -52,7 +52,7 @@ const SIXTEEN: f64 = 12.0;
 const CHANNEL: f64 = 9.6;
 const SEEN: f64 = 112.0;
 const BAND: f64 = 32.0;
-const SETTLING: f64 = 315.0;
+const SETTLING: f64 = 290.0;
 /// What threads and the rest take, and what the coding of a film takes of any size, bytes.
 const BESIDE: f64 = 2e6;
 const CODER: f64 = 1e6;
