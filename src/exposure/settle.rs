@@ -131,7 +131,7 @@ struct Settling<'a> {
     // That is asked for.
     error: f64,
     squares: Vec<Square>,
-    // The spreads of squares, XYZ, as far as those around make them doubtful.
+    // The variances of squares, XYZ, as far as those around make them doubtful.
     doubts: Vec<DVec3>,
     pixels: Vec<Pixel>,
 }
@@ -192,24 +192,24 @@ impl Settling<'_> {
         most
     }
 
-    /// How far the samples of a square lie apart, XYZ, or those of squares near it. (A few samples may all miss an edge.)
+    /// The variance of a square's samples, XYZ, or of those of squares near it. (A few samples may all miss an edge.)
     fn doubt(&self, number: usize) -> DVec3 {
         let own = &self.squares[number];
-        let (reach, part) = if own.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT) };
-        let around = self.grid.around(number, reach).map(|number| self.squares[number].spread() * part);
-        around.fold(own.spread(), DVec3::max)
+        let (reach, part) = if own.samples == FIRST { (REACH, 1.0) } else { (1, DOUBT * DOUBT) };
+        let around = self.grid.around(number, reach).map(|number| self.squares[number].variance() * part);
+        around.fold(own.variance(), DVec3::max)
     }
 
     fn pixel(&self, number: usize) -> Pixel {
         let xyz = self.grid.xyz(&self.squares, number);
         let seen = Discrimination::around(self.lab(xyz));
         let weight = &self.measuring.parts.weight;
-        let spread = self.off(number, |number| self.squares[number].spread());
+        let off = self.off(number, |number| self.squares[number].variance());
         let (mut halves, mut own) = (0.0, 0.0);
-        if spread != DVec3::ZERO {
+        if off != DVec3::ZERO {
             let halved = |giver: usize, i: usize| self.squares[giver].halved.as_dvec3() * weight[i];
             halves = 2.0 * seen.distance(self.lab((xyz + self.grid.sum(number, halved)).max(DVec3::ZERO)));
-            own = (HALVES * halves).max(self.swing(&seen, xyz, spread));
+            own = (HALVES * halves).max(self.swing(&seen, xyz, off));
         }
         let coarser = |giver: usize, i: usize| self.squares[giver].coarser.as_dvec3() * weight[i];
         let coarser = self.grid.sum(number, coarser);
@@ -218,16 +218,16 @@ impl Settling<'_> {
         Pixel { halves, own, unsettled: own, unresolved }
     }
 
-    /// How far a pixel's samples may be off, XYZ, if those of the squares around spread so.
-    fn off(&self, number: usize, spread: impl Fn(usize) -> DVec3) -> DVec3 {
-        let variance = self.grid.sum(number, |giver, i| self.part(giver, i, spread(giver)));
+    /// How far a pixel's samples may be off, XYZ, if those of the squares around have such variances.
+    fn off(&self, number: usize, of: impl Fn(usize) -> DVec3) -> DVec3 {
+        let variance = self.grid.sum(number, |giver, i| self.part(giver, i, of(giver)));
         SPREAD * DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
     }
 
     /// What a square adds to the variance of a pixel that has it as its i-th.
-    fn part(&self, giver: usize, i: usize, spread: DVec3) -> DVec3 {
+    fn part(&self, giver: usize, i: usize, variance: DVec3) -> DVec3 {
         let share = 1.0 / f64::from(self.squares[giver].samples);
-        spread * spread * (self.measuring.parts.squared[i] * share * share.sqrt())
+        variance * (self.measuring.parts.squared[i] * share * share.sqrt())
     }
 
     /// How far a pixel may be from settled: by the halves of its samples and of its neighbours', and by how far samples lie apart in

@@ -110,12 +110,11 @@ pub(super) struct Square {
 }
 
 impl Square {
-    /// The standard deviation of its samples, XYZ.
-    pub(super) fn spread(&self) -> DVec3 {
+    /// The variance of its samples, XYZ.
+    pub(super) fn variance(&self) -> DVec3 {
         let share = 1.0 / f64::from(self.samples);
         let mean = self.xyz * share;
-        let variance = (self.squared * share - mean * mean).max(DVec3::ZERO);
-        DVec3::new(variance.x.sqrt(), variance.y.sqrt(), variance.z.sqrt())
+        (self.squared * share - mean * mean).max(DVec3::ZERO)
     }
 }
 
