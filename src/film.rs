@@ -7,7 +7,8 @@ pub use development::{Development, encode, encode_finely};
 use crate::color::RGB_FROM_XYZ;
 use glam::{DVec2, DVec3};
 
-/// How much light around a pixel's centre counts for it. The weights are carried by the density of samples.
+/// How much light around a pixel's centre counts for it. The weights are carried by the density of samples, or, where neighbours share
+/// them, by each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Reconstruction {
     /// The pixel's own square.

@@ -98,7 +98,6 @@ fn reported_error_holds(path: &Path, (width, height): (u32, u32), points: u32) {
     // The reference is not exact either.
     assert!(real.p99 <= 1.1 * settled.error.p99.max(0.1), "{name}: {real:?}, not {:?}", settled.error);
     assert!(real.mean <= 1.1 * settled.error.mean.max(0.05), "{name}: {real:?}, not {:?}", settled.error);
-    println!("{name} {real:?} {:?} {}", settled.error, settled.samples);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Pictures whose pixels share their samples with their neighbours.
 
 use crate::support::{close, manifested, near};
-use terrell::exposure::{Sampling, expose_converged};
-use terrell::film::Reconstruction;
+use terrell::chart::Deviation;
+use terrell::exposure::{Sampling, expose_converged, expose_settled};
+use terrell::film::{Development, Reconstruction};
 
 const FILTERS: [Reconstruction; 3] = [Reconstruction::Box, Reconstruction::Tent, Reconstruction::Gaussian];
 
@@ -63,6 +64,22 @@ output: out
             for xyz in expose_converged(&scene.lit(), &view, &sampling).xyz {
                 close(f64::from(xyz[1]), 20.0, 1e-6);
             }
+        }
+    }
+}
+
+#[test]
+fn smallest_pictures_settle() {
+    let (_, scene, plan) = manifested(PLATE);
+    let development = Development::new(100.0, 1.0);
+    for (width, height) in [(1, 1), (3, 5), (5, 2)] {
+        let view = scene.observer.view(0.0, width, height);
+        for filter in FILTERS {
+            let sampling = Sampling { width, height, samples: 1024, reconstruction: filter, ..plan.sampling };
+            let settled = expose_settled(&scene.lit(), &view, &sampling, &development, 1.0);
+            let converged = expose_converged(&scene.lit(), &view, &sampling);
+            let off = Deviation::between(&settled.negative, &converged, &development).shown;
+            assert!(off.p99 <= 1.0 && settled.error.p99 <= 1.0, "{width} x {height}, {filter:?}: {off:?}");
         }
     }
 }

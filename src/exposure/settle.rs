@@ -1,12 +1,12 @@
-//! A picture asked for by its error: each pixel gets the samples and the wavelengths that it needs.
+//! A picture asked for by its error: each square gets the samples and the wavelengths that the pixels around it need.
 //!
-//! How far its samples lie apart tells how far a pixel is settled, and a second rule over its wavelengths tells whether they are
-//! enough. What is not settled is measured again, as finely as follows from that. Every pixel decides by itself and by what its
-//! neighbours were in the pass before, so the picture is the same on any number of threads.
+//! How far samples lie apart tells how far a pixel is settled, and a second rule over wavelengths tells whether they are
+//! enough. The squares of what is not settled are measured again, as finely as follows from that: each as the neediest of its pixels
+//! wants it, by what all were in the pass before, so the picture is the same on any number of threads.
 
 use super::Sampling;
 use super::shared::{Grid, beside, evenly, eyes};
-use super::square::{Around, FIRST, MOST, Measuring, Square};
+use super::square::{Around, FIRST, MOST, Measuring, Sequence, Square};
 use crate::color::{Discrimination, Lab};
 use crate::film::{Development, Negative};
 use crate::observer::View;
@@ -22,9 +22,9 @@ const GROWTH: u32 = 4;
 const SPREAD: f64 = 0.6;
 /// The same in parts of the difference between the means of two halves of the samples.
 const HALVES: f64 = 0.6;
-/// So many columns and rows away what is met matters to a pixel that has been looked at but once.
+/// So many columns and rows away what is met matters to a square that has been looked at but once.
 const REACH: usize = 2;
-/// The part of a neighbour's spread that is a pixel's own, once it has been looked at again.
+/// The part of a neighbour's spread that is a square's own, once it has been looked at again.
 const DOUBT: f64 = 0.25;
 /// What multiplies all estimates, so that they hold for 99 pixels of 100 of every committed manifest.
 const SAFETY: f64 = 1.7;
@@ -33,7 +33,7 @@ const RULES: f64 = 0.2;
 /// The part of the error by wavelengths that a square around a pixel may have without being looked at for that.
 const NEGLIGIBLE: f64 = 0.05;
 /// Of so many pixels it is kept at a time what they want, which takes memory.
-const AT_ONCE: usize = 1 << 16;
+const AT_ONCE: usize = 1 << 14;
 /// The part of the tolerance that may go to the wavelengths.
 const RESOLVED: f64 = 0.4;
 
@@ -94,7 +94,7 @@ pub fn expose_settled_until(
     let (mut taken, mut errors, mut negatives) = (0, Vec::new(), Vec::new());
     for (view, grid) in eyes(view, sampling) {
         let lit = lit.seen_from(view.tetrad.event);
-        let measuring = Measuring::new(&lit, &view, sampling.reconstruction);
+        let measuring = Measuring::new(&lit, &view, sampling.reconstruction, Sequence::Plain);
         let squares = evenly(&measuring, grid, FIRST, wavelengths, stop)?;
         let doubts = vec![DVec3::ZERO; squares.len()];
         let pixels = vec![Pixel::default(); squares.len()];
@@ -145,7 +145,7 @@ impl Settling<'_> {
         let mut near: Vec<usize> = (0..self.squares.len()).collect();
         loop {
             let wanted = self.look_at(&near);
-            // What is met may be near to others, too.
+            // What is met may be near to others, too, and to the squares that they are made of.
             let mut marked = vec![false; self.squares.len()];
             let open = wanted.iter().enumerate().filter(|(_, (samples, _))| *samples > 0);
             for (number, _) in open {
@@ -301,7 +301,7 @@ impl Settling<'_> {
         }
         let off = |i: usize| {
             givers[i].map_or(0.0, |giver| {
-                f64::from(self.squares[giver].coarser.length()) * self.measuring.parts.weight[i]
+                self.squares[giver].coarser.as_dvec3().length() * self.measuring.parts.weight[i]
             })
         };
         let all: f64 = (0..9).map(off).sum();

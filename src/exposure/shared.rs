@@ -1,6 +1,6 @@
 //! Pictures whose pixels share their samples with their neighbours.
 
-use super::square::{Around, FIRST, MOST, Measuring, Square};
+use super::square::{Around, FIRST, MOST, Measuring, Sequence, Square};
 use super::{BRIGHTEST, Sampling, TILE};
 use crate::film::{Negative, Reconstruction};
 use crate::observer::View;
@@ -11,12 +11,13 @@ use rayon::prelude::*;
 use std::array::from_fn;
 
 /// Exposes a picture that others are compared with: with so many samples in each square of a pixel's size (the next power of two, 4
-/// to 1024), each of which counts for all pixels whose filters reach it.
+/// to 1024), each of which counts for all pixels whose filters reach it, at 3, 16, 32 or 64 wavelengths (64 in place of others). It
+/// has no sample in common with what is asked for by an error.
 pub fn expose_converged(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
-    let samples = sampling.samples.next_power_of_two().clamp(FIRST, MOST);
+    let samples = sampling.samples.clamp(FIRST, MOST).next_power_of_two();
     let of_eye = |view: &View, grid: Grid| {
         let lit = lit.seen_from(view.tetrad.event);
-        let measuring = Measuring::new(&lit, view, sampling.reconstruction);
+        let measuring = Measuring::new(&lit, view, sampling.reconstruction, Sequence::Turned);
         let squares = evenly(&measuring, grid, samples, sampling.wavelengths, &Stop::never());
         grid.negative(&squares.unwrap_or_default())
     };

@@ -8,7 +8,7 @@ use crate::film::{Reconstruction, scattered};
 use crate::observer::View;
 use crate::spectrum::Wavelengths;
 use crate::trace::{Cone, Lit};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2Swizzles as _, Vec3};
 use std::array::from_fn;
 use std::sync::OnceLock;
 
@@ -16,7 +16,8 @@ use std::sync::OnceLock;
 pub(super) const FIRST: u32 = 4;
 /// Most samples of a square.
 pub(super) const MOST: u32 = 1024;
-/// Footprints of textures are at most as wide as for so many samples: wider ones blur, which no sample tells.
+/// Footprints of textures are at most as wide as for so many samples: wider ones blur, which no sample tells. (Where glass parts colours
+/// each sample follows as few as one of so many would: its neighbours have others.)
 const SHARP: u32 = 64;
 
 /// Something for each pixel that a square gives light to: row by row, itself in the middle.
@@ -47,6 +48,15 @@ impl Parts {
     }
 }
 
+/// Which of two sequences of samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sequence {
+    /// As they are scattered.
+    Plain,
+    /// With columns and rows exchanged and otherwise moved, to compare with.
+    Turned,
+}
+
 /// A sample of a square.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
@@ -66,9 +76,15 @@ struct Doubling {
 
 impl Doubling {
     /// Up to so many samples, in a square at one place of squares of four by four.
-    fn to(samples: u32, set: (u32, u32), filter: Reconstruction, parts: &Parts) -> Self {
+    fn to(samples: u32, set: (u32, u32), of: &Measuring<'_>) -> Self {
+        let Measuring { filter, parts, sequence, .. } = of;
+        let turned = *sequence == Sequence::Turned;
         let sample = |number: u32| {
-            let offset = scattered(number, set);
+            let offset = if turned {
+                scattered(number, ((set.1 + 2) % 4, (set.0 + 1) % 4)).yx()
+            } else {
+                scattered(number, set)
+            };
             let weights = from_fn(|i| {
                 let pixel = DVec2::new((i % 3) as f64 - 1.0, (i / 3) as f64 - 1.0);
                 filter.density(offset.x - pixel.x) * filter.density(offset.y - pixel.y)
@@ -87,7 +103,8 @@ impl Doubling {
             sample.weights = from_fn(|i| sample.weights[i] * missing[i]);
         }
         // Neighbours that share samples are to have other wavelengths where colours are parted.
-        Self { samples, moved: (4 * set.0 + set.1).wrapping_mul(0x9e37_79b9) }
+        let moved = (4 * set.0 + set.1).wrapping_mul(0x9e37_79b9);
+        Self { samples, moved: if turned { moved ^ 0xb504_f333 } else { moved } }
     }
 }
 
@@ -132,6 +149,7 @@ pub(super) struct Measuring<'a> {
     lit: &'a Lit<'a>,
     view: &'a View,
     filter: Reconstruction,
+    sequence: Sequence,
     pub(super) parts: Parts,
     rules: Rules,
     // Of each place in squares of 4 by 4, by the logarithm of the number of samples.
@@ -139,9 +157,9 @@ pub(super) struct Measuring<'a> {
 }
 
 impl<'a> Measuring<'a> {
-    pub(super) fn new(lit: &'a Lit<'a>, view: &'a View, filter: Reconstruction) -> Self {
+    pub(super) fn new(lit: &'a Lit<'a>, view: &'a View, filter: Reconstruction, sequence: Sequence) -> Self {
         let (parts, rules) = (Parts::of(filter), Rules::default());
-        Self { lit, view, filter, parts, rules, doublings: Default::default() }
+        Self { lit, view, filter, sequence, parts, rules, doublings: Default::default() }
     }
 
     /// The square around a place of the picture with so many samples and wavelengths, of which those before are not taken again.
@@ -219,6 +237,6 @@ impl<'a> Measuring<'a> {
         let place = |centre: f64| (centre + 1.0) as usize % 4;
         let (column, row) = (place(centre.x), place(centre.y));
         self.doublings[row][column][samples.ilog2() as usize]
-            .get_or_init(|| Doubling::to(samples, (column as u32, row as u32), self.filter, &self.parts))
+            .get_or_init(|| Doubling::to(samples, (column as u32, row as u32), self))
     }
 }

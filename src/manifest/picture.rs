@@ -194,7 +194,8 @@ record! {
         /// How many wavelengths are traced: 8, 16 (unless said), 32 or 64.
         wavelengths: u32 = Wavelengths, default(16), "32";
         /// Asks for accuracy instead: 99 of 100 pixels are to be within this of the converged picture, in CIEDE2000 (about 1 is
-        /// just noticeable). Each gets the samples and wavelengths that it needs, whatever `samples` and `wavelengths` say.
+        /// just noticeable). Each gets the samples (neighbours share them) and wavelengths that it needs, whatever `samples` and
+        /// `wavelengths` say.
         tolerance: Option<f64> = Tolerance, optional, "1";
         /// How samples are weighed: `gaussian` (unless said), `tent` or `box`.
         filter: Filter = Filter, default(Filter::Gaussian), "tent";
