@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/build.rs");
     println!("cargo::rerun-if-env-changed=CXX");
     let is = |name: &str, value: &str| std::env::var(name).is_ok_and(|found| found == value);
     let video = std::env::var_os("CARGO_FEATURE_VIDEO").is_some();
