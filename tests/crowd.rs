@@ -7,7 +7,7 @@ use glam::DVec3;
 use terrell::scene::Scene;
 use terrell::spacetime::{Event, FourVector, SightRay, Velocity};
 use terrell::spectrum::Wavelengths;
-use terrell::world::Crowd;
+use terrell::world::{Crowd, Departure, Hit};
 
 /// Balls that appear all round the event, near and far, slow and at γ = 1e4; one floor without end.
 fn crowded(dice: &mut Dice, count: usize, seen_from: Event) -> Scene {
@@ -27,6 +27,52 @@ fn crowded(dice: &mut Dice, count: usize, seen_from: Event) -> Scene {
     });
     let floor = Body::of(plane(v(0.0, -500.0, 0.0), v(0.1, 1.0, 0.2)), black());
     Stage::of(bodies.chain([floor])).scene()
+}
+
+/// Rays that go together are told what each is told by itself: what is met first, and whether anything is.
+fn same_together(scene: &Scene, rays: &[SightRay], s_max: f64, crowd: Option<&Crowd>) {
+    let world = &scene.world;
+    let known = |hit: Option<Hit<'_>>| hit.map(|hit| (hit.placed.body, hit.s.to_bits()));
+    let away = |ray: &SightRay| {
+        // From the ground of some body, as shadow rays start.
+        let rest = &world.frames[world.frames.len() / 2];
+        Departure { event: ray.event, rest, at: rest.rest_from_lab * ray.event }
+    };
+    let from: Vec<Departure<'_>> = rays.iter().map(away).collect();
+    let leaving: Vec<_> = rays.iter().zip(&from).map(|(ray, from)| (ray, from, s_max)).collect();
+    let blocked = world.blocked_many(&leaving, crowd);
+    for (i, hit) in world.nearest_many(rays, crowd).into_iter().enumerate() {
+        let Some(ray) = rays.get(i) else {
+            assert!(hit.is_none() && blocked >> i & 1 == 0);
+            continue;
+        };
+        assert_eq!(known(hit), known(world.nearest_from(ray, None, crowd)), "{ray:?}");
+        assert_eq!(blocked >> i & 1 == 1, world.blocked(ray, Some(&from[i]), s_max, crowd), "{ray:?}");
+    }
+}
+
+#[test]
+fn rays_that_go_together_meet_whom_each_meets_by_itself() {
+    let mut dice = Dice(73);
+    for count in [3, 60, 400] {
+        let scene = crowded(&mut dice, count, Event::ORIGIN);
+        let crowd = scene.world.crowd(Event::ORIGIN);
+        assert_eq!(crowd.is_some(), count > 3);
+        for number in 0..300 {
+            let (n, wide) = (dice.direction(), libm::pow(10.0, dice.between(-4.0, 0.0)));
+            let start = dice.in_cube() * f64::from(number % 3);
+            let rays: Vec<SightRay> = (0..=dice.below(16))
+                .map(|_| {
+                    let along = (n + dice.in_cube() * wide).normalize();
+                    let event = Event::new(0.0, start + dice.in_cube() * wide);
+                    SightRay { event, k: FourVector::new(1.0, along) }
+                })
+                .collect();
+            let s_max = dice.between(1.0, 100.0);
+            same_together(&scene, &rays, s_max, crowd.as_ref());
+            same_together(&scene, &rays, s_max, None);
+        }
+    }
 }
 
 /// What is met first, whether anything is met, and how many are met at all.

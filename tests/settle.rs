@@ -17,7 +17,7 @@ use terrell::scene::{Scene, compose};
 use terrell::spectrum::Wavelengths;
 use terrell::trace::Cone;
 
-fn committed(folder: &str) -> Vec<PathBuf> {
+pub(crate) fn committed(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut all: Vec<PathBuf> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
     all.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
@@ -26,7 +26,7 @@ fn committed(folder: &str) -> Vec<PathBuf> {
     all
 }
 
-fn loaded(path: &Path, size: (u32, u32)) -> (Scene, Plan) {
+pub(crate) fn loaded(path: &Path, size: (u32, u32)) -> (Scene, Plan) {
     let mut report = Report::default();
     let changes = [("picture.size".to_owned(), format!("{} {}", size.0, size.1))];
     let manifest = manifest::load_with(path, &changes, &mut report).unwrap();

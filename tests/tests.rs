@@ -43,6 +43,7 @@ mod mirror;
 mod movie;
 mod needs;
 mod output;
+mod packets;
 mod radiance;
 mod seeing;
 mod settle;

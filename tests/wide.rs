@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use proptest::prelude::{ProptestConfig, prop_assert_eq, proptest};
 use std::time::{Duration, Instant};
 use terrell::mesh::Mesh;
-use terrell::tree::{Bounds, Line, Tree};
+use terrell::tree::{Bounds, Line, Lines, MANY, Tree};
 use terrell::triangles::{Meeting, Triangles};
 
 /// The same mesh in both trees.
@@ -64,6 +64,44 @@ impl Both {
         }
         Err(format!("{line:?} up to {s_max}:\n{found:?}\n{expected:?}\n{first:?} {any}"))
     }
+
+    /// Whether lines that go together meet what each meets by itself; how many meet anything.
+    fn agree_together(&self, lines: &[Line], limits: &[f64; MANY]) -> Result<usize, String> {
+        let together = Lines::of(lines.iter().copied());
+        let nearest = self.eight.nearest_many(&together, limits);
+        let any = self.eight.any_many(&together, limits);
+        let mut met = 0;
+        for (i, (nearest, limit)) in nearest.into_iter().zip(limits).enumerate() {
+            let Some(line) = lines.get(i) else {
+                assert!(nearest.is_none() && any >> i & 1 == 0, "no line");
+                continue;
+            };
+            let alone = self.eight.nearest(line, *limit);
+            if nearest.map(bits) != alone.map(bits) || (any >> i & 1 == 1) != self.eight.any(line, *limit) {
+                return Err(format!("{i} of {lines:?} up to {limit}:\n{nearest:?}\n{alone:?} {any:b}"));
+            }
+            met += usize::from(alone.is_some());
+        }
+        Ok(met)
+    }
+}
+
+/// Lines that go about the same way from about the same place, or toward one, or nowhere together.
+fn bundled(mesh: &Mesh, dice: &mut Dice, reach: f64) -> Vec<Line> {
+    let first = aimed(mesh, dice, reach);
+    let count = 1 + dice.below(MANY);
+    let (kind, spread) = (dice.below(4), libm::pow(10.0, dice.between(-6.0, 0.0)));
+    let line = |dice: &mut Dice| {
+        let moved = dice.in_cube() * spread * reach;
+        let turned = dice.in_cube() * spread * first.step.length();
+        match kind {
+            0 => Line { step: first.step + turned, ..first },
+            1 => Line { origin: first.origin + moved, step: first.step - moved },
+            2 => Line { origin: first.origin + moved, step: first.step + turned },
+            _ => aimed(mesh, dice, reach),
+        }
+    };
+    (0..count).map(|_| line(dice)).collect()
 }
 
 /// A line at a mesh: at its vertices, its edges, along its edges, or anywhere near it.
@@ -132,6 +170,34 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+    #[test]
+    fn lines_that_go_together_meet_what_each_meets_by_itself(seed in 0..u64::MAX, count in 1..2000_usize, size in -6.0..6.0_f64) {
+        let mut dice = Dice(seed);
+        let size = libm::pow(10.0, size);
+        let both = Both::new(soup(&zoo(&mut dice, count).map_all(|p| p * size)));
+        for _ in 0..60 {
+            let mut lines = bundled(&both.eight.mesh, &mut dice, 3.0 * size);
+            if dice.below(10) == 0 {
+                // Some that are no lines.
+                lines[0].step = [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY, DVec3::X][dice.below(4)];
+                lines[0].origin.x *= [1.0, f64::NAN, f64::INFINITY][dice.below(3)];
+            }
+            let limits = [0; MANY].map(|_| match dice.below(4) {
+                0 => dice.between(0.0, 2.0) * size / lines[0].step.length(),
+                1 => -1.0,
+                _ => f64::INFINITY,
+            });
+            for limits in [limits, [f64::INFINITY; MANY]] {
+                let agreed = both.agree_together(&lines, &limits);
+                prop_assert_eq!(agreed.as_ref().err(), None);
+            }
+        }
+    }
+}
+
 trait MapAll {
     fn map_all(self, f: impl Fn(DVec3) -> DVec3) -> Self;
 }
@@ -159,6 +225,17 @@ fn both_trees_meet_the_same_side_of_an_edge() {
         }
         assert!(met > 8_000, "{met}");
     }
+}
+
+#[test]
+fn lines_together_at_a_ball_meet_what_each_meets_by_itself() {
+    let both = Both::new(icosphere(5));
+    let (mut dice, mut met) = (Dice(8), 0);
+    for _ in 0..3_000 {
+        let lines = bundled(&both.eight.mesh, &mut dice, 2.0);
+        met += both.agree_together(&lines, &[f64::INFINITY; MANY]).unwrap();
+    }
+    assert!(met > 8_000, "{met}");
 }
 
 /// Of triangles that are met at the same s it is the one with the smallest number, wherever it is in the tree.

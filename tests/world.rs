@@ -5,7 +5,7 @@ use crate::support::{
     square, v,
 };
 use glam::{DAffine3, DMat3, DVec3};
-use terrell::spacetime::Event;
+use terrell::spacetime::{Event, SightRay, Velocity};
 
 /// Plates behind one another, each passing the line of sight when the light does: the nearest is seen, in whatever
 /// order they are given.
@@ -85,6 +85,38 @@ fn normals_stay_square_to_stretched_and_mirrored_bodies() {
                 assert!(angle(spot.facet_normal, gradient * side) < 0.3, "{matrix}");
                 near(spot.facet_normal.length(), 1.0, 1e-12);
                 near(spot.normal.length(), 1.0, 1e-12);
+            }
+        }
+    }
+}
+
+/// Plates of several bodies in one place: the first of them is seen, from wherever, by whichever way it is asked, in one rest frame or in
+/// several.
+#[test]
+fn first_body_is_seen_of_those_at_one_place() {
+    let plate = built(square());
+    for frames in [1, 2, 9] {
+        let put = |number: usize| {
+            let away = if number % 3 == 2 { v(0.0, 0.0, 0.5) } else { DVec3::ZERO };
+            // Frames that differ by nothing that a ray could tell.
+            let velocity = v(1e-30, 0.0, 0.0) * (number % frames) as f64;
+            Body::new(&plate, black()).at(0.0, away).moving(Velocity::from_proper(velocity))
+        };
+        let scene = Stage::of((0..12).map(put)).scene();
+        let frames = scene.world.frames.len();
+        let mut dice = Dice(53);
+        for _ in 0..50 {
+            let eye =
+                Event::new(0.0, v(dice.between(-3.0, 3.0), dice.between(-3.0, 3.0), -2.0 - dice.part()));
+            let rays: Vec<SightRay> =
+                (0..16).map(|_| light_from(v(dice.part() - 0.5, dice.part() - 0.5, 0.0), eye)).collect();
+            let crowd = scene.world.crowd(eye);
+            let together = scene.world.nearest_many(&rays, crowd.as_ref());
+            for (ray, together) in rays.iter().zip(together) {
+                let alone = scene.world.nearest_from(ray, None, crowd.as_ref()).unwrap();
+                let together = together.unwrap();
+                assert_eq!((alone.placed.body, alone.s), (together.placed.body, together.s));
+                assert_eq!(alone.placed.body, 0, "{frames} frames");
             }
         }
     }

@@ -18,8 +18,10 @@ use crate::spacetime::SightRay;
 use crate::spectrum::Wavelengths;
 use crate::stop::Stop;
 use crate::trace::{Cone, First, Light, Lit};
+use crate::tree::MANY;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use smallvec::SmallVec;
 use std::ops::Range;
 
 /// How finely a picture is sampled.
@@ -67,12 +69,16 @@ pub fn expose_lit(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> Negative {
 pub fn expose_until(lit: &Lit<'_>, view: &View, sampling: &Sampling, stop: &Stop) -> Option<Negative> {
     let lit = &lit.seen_from(view.tetrad.event);
     let size = (sampling.width, sampling.height);
-    let xyz = by_pixel_until(size, stop, pixels(lit, view, sampling), |_, _| {})?;
+    let of = pixels(lit, view, sampling);
+    let xyz = by_tile_until(size, stop, |places, tell| of(places, tell), |_, _| {})?;
     Some(Negative { width: sampling.width, height: sampling.height, xyz })
 }
 
-/// What says the XYZ of a pixel, by its column and row.
-type Pixels<'a> = Box<dyn Fn(usize, usize) -> [f32; 3] + Sync + 'a>;
+/// A column and a row.
+type Place = (usize, usize);
+
+/// What tells the XYZ of some pixels near one another, in their order.
+type Pixels<'a> = Box<dyn Fn(&[Place], &mut dyn FnMut([f32; 3])) + Sync + 'a>;
 
 fn pixels<'a>(lit: &'a Lit<'a>, view: &'a View, sampling: &Sampling) -> Pixels<'a> {
     match sampling.wavelengths {
@@ -86,9 +92,7 @@ fn pixels<'a>(lit: &'a Lit<'a>, view: &'a View, sampling: &Sampling) -> Pixels<'
 
 fn pixels_with<'a, const N: usize>(lit: &'a Lit<'a>, view: &'a View, sampling: &Sampling) -> Pixels<'a> {
     let exposing = Exposing::<N>::new(view, sampling);
-    Box::new(move |column, row| {
-        exposing.pixel(column, row, |ray, cone| lit.seen_within(ray, cone, &exposing.wavelengths)).0
-    })
+    Box::new(move |places, tell| exposing.pixels(places, lit, tell))
 }
 
 /// What is the same for all pixels of a picture.
@@ -111,32 +115,58 @@ impl<'a, const N: usize> Exposing<'a, N> {
         }
     }
 
-    /// The mean of a pixel's samples: XYZ, and the radiances.
-    fn pixel(
-        &self,
-        column: usize,
-        row: usize,
-        mut seen: impl FnMut(&SightRay, Cone) -> Light<N>,
-    ) -> ([f32; 3], [f64; N]) {
+    /// The means of the samples of some pixels near one another, XYZ: as many rays go together as may.
+    fn pixels(&self, places: &[Place], lit: &Lit<'_>, tell: &mut dyn FnMut([f32; 3])) {
+        for places in places.chunks((MANY / self.offsets.len()).max(1)) {
+            let mut sums: SmallVec<[([f64; N], DVec3); MANY]> = SmallVec::new();
+            let mut rays: SmallVec<[(SightRay, Cone); MANY]> = SmallVec::new();
+            let mut of: SmallVec<[usize; MANY]> = SmallVec::new();
+            for (number, place) in places.iter().enumerate() {
+                sums.push(([0.0; N], DVec3::ZERO));
+                rays.extend(self.sights(*place));
+                of.resize(rays.len(), number);
+            }
+            for (rays, of) in rays.chunks(MANY).zip(of.chunks(MANY)) {
+                lit.seen_many(rays, &self.wavelengths, |i, light| add(&mut sums[of[i]], &light));
+            }
+            sums.iter().for_each(|(radiance, lines)| tell(self.mean(radiance, *lines)));
+        }
+    }
+
+    /// The sight rays of a pixel's samples.
+    fn sights(&self, (column, row): Place) -> impl Iterator<Item = (SightRay, Cone)> {
         let spacing = self.share.sqrt();
         let (view, centre) = self.view.of_pixel(DVec2::new(column as f64 + 0.5, row as f64 + 0.5));
-        let mut radiance = [0.0; N];
-        let mut lines = DVec3::ZERO;
-        for (offset, phase) in self.offsets.iter().zip(&self.phases) {
+        self.offsets.iter().zip(&self.phases).filter_map(move |(offset, phase)| {
             let place = centre + *offset;
-            if !view.shows(place) {
-                continue;
-            }
-            let (ray, cone) = view.sight(place, spacing);
-            let light = seen(&ray, Cone { phase: *phase, ..cone });
-            for (sum, value) in radiance.iter_mut().zip(light.radiance) {
-                *sum += value;
-            }
-            lines += light.lines;
-        }
-        let xyz = ((self.wavelengths.xyz(&radiance) + lines) * self.share).min(DVec3::splat(BRIGHTEST));
-        (xyz.as_vec3().to_array(), radiance.map(|value| value * self.share))
+            view.shows(place).then(|| {
+                let (ray, cone) = view.sight(place, spacing);
+                (ray, Cone { phase: *phase, ..cone })
+            })
+        })
     }
+
+    /// XYZ of the mean of samples with this sum.
+    fn mean(&self, radiance: &[f64; N], lines: DVec3) -> [f32; 3] {
+        let xyz = ((self.wavelengths.xyz(radiance) + lines) * self.share).min(DVec3::splat(BRIGHTEST));
+        xyz.as_vec3().to_array()
+    }
+
+    /// The mean of a pixel's samples: XYZ, and the radiances.
+    fn pixel(&self, place: Place, mut seen: impl FnMut(&SightRay, Cone) -> Light<N>) -> ([f32; 3], [f64; N]) {
+        let mut sum = ([0.0; N], DVec3::ZERO);
+        self.sights(place).for_each(|(ray, cone)| add(&mut sum, &seen(&ray, cone)));
+        let (radiance, lines) = sum;
+        (self.mean(&radiance, lines), radiance.map(|value| value * self.share))
+    }
+}
+
+/// Adds light to a sum of radiances and lines.
+fn add<const N: usize>((radiance, lines): &mut ([f64; N], DVec3), light: &Light<N>) {
+    for (sum, value) in radiance.iter_mut().zip(light.radiance) {
+        *sum += value;
+    }
+    *lines += light.lines;
 }
 
 /// Exposes some tiles of a picture, by their columns and rows, as [`expose_until`] would, and keeps nothing of them: how many pixels
@@ -147,16 +177,14 @@ pub(crate) fn expose_tiles(
     sampling: &Sampling,
     tiles: &[(usize, usize)],
 ) -> usize {
-    let pixel = pixels(lit, view, sampling);
+    let of = pixels(lit, view, sampling);
     let within = |tile: usize, end: u32| tile * TILE..((tile + 1) * TILE).min(end as usize);
-    let exposed = |(column, row): &(usize, usize)| {
-        let rows = within(*row, sampling.height);
-        let places = rows.flat_map(|row| within(*column, sampling.width).map(move |column| (column, row)));
-        let count = |sum, (column, row)| {
-            std::hint::black_box(pixel(column, row));
-            sum + 1
-        };
-        places.fold(0, count)
+    let exposed = |(column, row): &Place| {
+        let places = in_tile(within(*column, sampling.width), within(*row, sampling.height));
+        of(&places, &mut |xyz| {
+            std::hint::black_box(xyz);
+        });
+        places.len()
     };
     tiles.par_iter().with_max_len(1).map(exposed).sum()
 }
@@ -197,12 +225,24 @@ fn by_pixel<T: Send + Clone>(width: u32, height: u32, of: impl Fn(usize, usize) 
     by_pixel_until((width, height), &Stop::never(), of, |_, _| {}).unwrap_or_default()
 }
 
-/// The same, with what is known at once of some rows given to `band`; none if it was stopped. (Found tile by tile, since rays that
-/// are near one another meet the same things.)
+/// The same, with what is known at once of some rows given to `band`; none if it was stopped.
 fn by_pixel_until<T: Send + Clone>(
-    (width, height): (u32, u32),
+    size: (u32, u32),
     stop: &Stop,
     of: impl Fn(usize, usize) -> T + Sync,
+    band: impl Fn(Range<usize>, &[T]) + Sync,
+) -> Option<Vec<T>> {
+    let each = |places: &[Place], tell: &mut dyn FnMut(T)| {
+        places.iter().for_each(|(column, row)| tell(of(*column, *row)));
+    };
+    by_tile_until(size, stop, each, band)
+}
+
+/// The same of the pixels of a tile, told in their order. (Rays that are near one another meet the same things.)
+fn by_tile_until<T: Send + Clone>(
+    (width, height): (u32, u32),
+    stop: &Stop,
+    of: impl Fn(&[Place], &mut dyn FnMut(T)) + Sync,
     band: impl Fn(Range<usize>, &[T]) + Sync,
 ) -> Option<Vec<T>> {
     let (width, height) = (width as usize, height as usize);
@@ -212,15 +252,20 @@ fn by_pixel_until<T: Send + Clone>(
         .into_par_iter()
         .with_max_len(1) // Else one thread may be left with many when the others are done.
         .map(|rows| {
-            let mut found = Vec::with_capacity(width * rows.len());
+            let mut found = vec![None; width * rows.len()];
             for columns in tiles(width) {
                 if stop.is_set() {
                     return None;
                 }
-                let places = rows.clone().flat_map(|row| columns.clone().map(move |column| (column, row)));
-                found.extend(places.map(|(column, row)| of(column, row)));
+                let places = in_tile(columns, rows.clone());
+                let mut told = places.iter();
+                of(&places, &mut |value| {
+                    if let Some((column, row)) = told.next() {
+                        found[(row - rows.start) * width + column] = Some(value);
+                    }
+                });
             }
-            let found = in_rows(&found, width, rows.len());
+            let found: Vec<T> = found.into_iter().flatten().collect();
             band(rows, &found);
             Some(found)
         })
@@ -228,15 +273,14 @@ fn by_pixel_until<T: Send + Clone>(
     Some(bands?.concat())
 }
 
-/// A row of tiles, from tile by tile to row by row.
-fn in_rows<T: Clone>(tiled: &[T], width: usize, rows: usize) -> Vec<T> {
-    let mut all = Vec::with_capacity(tiled.len());
-    for row in 0..rows {
-        for start in (0..width).step_by(TILE) {
-            let columns = TILE.min(width - start);
-            let first = start * rows + row * columns;
-            all.extend_from_slice(&tiled[first..first + columns]);
-        }
-    }
-    all
+/// The pixels of a tile, by squares within squares, so that those that follow one another are near one another.
+fn in_tile(columns: Range<usize>, rows: Range<usize>) -> SmallVec<[Place; TILE * TILE]> {
+    let bit = |number: usize, bit: usize| number >> bit & 1;
+    let within = |number: usize| {
+        let at =
+            |first: usize| bit(number, first) | bit(number, first + 2) << 1 | bit(number, first + 4) << 2;
+        (columns.start + at(0), rows.start + at(1))
+    };
+    let places = (0..TILE * TILE).map(within);
+    places.filter(|(column, row)| *column < columns.end && *row < rows.end).collect()
 }

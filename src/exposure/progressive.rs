@@ -4,7 +4,7 @@
 //! within are known. Every pixel is traced once at its centre; where it is to have more samples, all follow. What is there in the end
 //! has the same bytes as the picture that [`expose`](super::expose) makes at once.
 
-use super::{Sampling, by_pixel_until, pixels};
+use super::{Pixels, Place, Sampling, by_tile_until, pixels};
 use crate::film::Negative;
 use crate::observer::View;
 use crate::stop::Stop;
@@ -73,25 +73,28 @@ pub fn expose_coarse_to_fine(
         }
     };
     let all = pixels(lit, view, sampling);
-    let xyz = by_pixel_until((sampling.width, sampling.height), stop, all, take)?;
+    let size = (sampling.width, sampling.height);
+    let xyz = by_tile_until(size, stop, |places, tell| all(places, tell), take)?;
     let picture = Negative { width: sampling.width, height: sampling.height, xyz };
     show(&picture, Grain::Done);
     Some(picture)
 }
 
 /// Traces the pixels that are `step` apart, but for those that the passes before have traced.
-fn refine(
-    picture: &mut Negative,
-    step: u32,
-    stop: &Stop,
-    trace: impl Fn(usize, usize) -> [f32; 3] + Sync,
-) -> Option<()> {
+fn refine(picture: &mut Negative, step: u32, stop: &Stop, trace: &Pixels<'_>) -> Option<()> {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let apart = step as usize;
-    let is_new = |column: usize, row: usize| step == STEPS[0] || column % 2 == 1 || row % 2 == 1;
-    let of = |column: usize, row: usize| is_new(column, row).then(|| trace(column * apart, row * apart));
+    let is_new = |(column, row): &Place| step == STEPS[0] || column % 2 == 1 || row % 2 == 1;
+    let of = |places: &[Place], tell: &mut dyn FnMut(Option<[f32; 3]>)| {
+        let new = places.iter().filter(|place| is_new(place));
+        let all: Vec<Place> = new.map(|(column, row)| (column * apart, row * apart)).collect();
+        let mut found = Vec::with_capacity(all.len());
+        trace(&all, &mut |xyz| found.push(xyz));
+        let mut found = found.into_iter();
+        places.iter().for_each(|place| tell(if is_new(place) { found.next() } else { None }));
+    };
     let grid = (picture.width.div_ceil(step), picture.height.div_ceil(step));
-    let new = by_pixel_until(grid, stop, of, |_, _| {})?;
+    let new = by_tile_until(grid, stop, of, |_, _| {})?;
     for (number, xyz) in new.into_iter().enumerate() {
         let Some(xyz) = xyz else { continue };
         let (column, row) = (number % grid.0 as usize * apart, number / grid.0 as usize * apart);

@@ -43,8 +43,9 @@ fn with<const N: usize>(lit: &Lit<'_>, view: &View, sampling: &Sampling) -> (Neg
     let exposing = Exposing::<N>::new(view, sampling);
     let pixels = by_pixel(sampling.width, sampling.height, |column, row| {
         let mut apart = [0.0; N];
-        let (xyz, radiance) = exposing
-            .pixel(column, row, |ray, cone| lit.seen_in_bands(ray, cone, &exposing.wavelengths, &mut apart));
+        let (xyz, radiance) = exposing.pixel((column, row), |ray, cone| {
+            lit.seen_in_bands(ray, cone, &exposing.wavelengths, &mut apart)
+        });
         let sum = |i: usize| (radiance[i] + apart[i] * exposing.share).min(BRIGHTEST) as f32;
         (xyz, std::array::from_fn::<f32, N, _>(sum))
     });

@@ -76,6 +76,7 @@ impl Scene {
         Lit {
             world: &self.world,
             crowd: None,
+            in_vacuum: None,
             surfaces: &self.surfaces,
             media: &self.media,
             lamps: &self.lamps,

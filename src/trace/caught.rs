@@ -33,7 +33,7 @@ impl Lit<'_> {
             cone: Cone::default(),
         };
         let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
-        if self.media.is_empty() {
+        if self.begins_in_vacuum(ray) {
             self.gather(&leg, &[SOMEWHERE_NM], &path, &mut gathered);
         } else {
             self.start_inside(&leg, &[SOMEWHERE_NM], &path, &mut gathered);

@@ -1,9 +1,11 @@
 //! The light of lamps on a surface.
 
-use super::{Gathered, Lit, Seen, scaled};
+use super::{Gathered, Lit, Met, Seen, scaled};
 use crate::lamp::{Connection, Lamp};
+use crate::spacetime::{FourVector, Rest};
 use crate::spectrum::Source;
 use crate::surface::{Lobes, Paint, Response, Surface};
+use crate::world::Spot;
 
 /// Light on its way from lamps to the observer, before the surface's own spectra.
 struct Arriving<'l, const N: usize> {
@@ -11,6 +13,30 @@ struct Arriving<'l, const N: usize> {
     base: [f64; N],
     // What is reflected, and what of it takes the colour of the tint.
     reflected: Option<Reflected<N>>,
+}
+
+/// The way of a lamp's light to a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Toward {
+    pub(super) connection: Connection,
+    // Its wave vector there.
+    pub(super) k: FourVector<Rest>,
+    // Whether anything stands in the way, if that has been asked.
+    pub(super) blocked: Option<bool>,
+}
+
+impl Toward {
+    #[inline]
+    pub(super) fn new(lamp: &Lamp, met: &Met<'_>) -> Option<Self> {
+        let connection = lamp.connect(&met.departure)?;
+        Some(Self { k: met.hit.rest.rest_from_lab.light(connection.ray.k), connection, blocked: None })
+    }
+
+    /// Whether the lamp shines on the side of the facet that is seen.
+    #[inline]
+    pub(super) fn is_above(&self, spot: &Spot) -> bool {
+        -self.k.x.dot(spot.facet_normal) > 0.0
+    }
 }
 
 struct Reflected<const N: usize> {
@@ -45,16 +71,16 @@ impl Lit<'_> {
         if let Some(ambient) = self.ambient.get(surface.ambient as usize) {
             self.add_fill(ambient, &fill, seen, &mut arriving, gathered);
         }
-        for lamp in self.lamps {
-            let Some(connection) = lamp.connect(&seen.departure) else { continue };
-            let k = seen.hit.rest.rest_from_lab.light(connection.ray.k);
+        for (number, lamp) in self.lamps.iter().enumerate() {
+            let known = seen.met.toward.get(number).copied();
+            let Some(toward) = known.unwrap_or_else(|| Toward::new(lamp, seen.met)) else { continue };
+            let Toward { connection, k, .. } = toward;
             // The cosine is the receiver's, in its own rest frame.
             let cosine = -k.x.dot(lobes.normal) / k.t;
-            let above = -k.x.dot(seen.spot.facet_normal);
-            if cosine <= 0.0 || above <= 0.0 {
+            if cosine <= 0.0 || !toward.is_above(&seen.met.spot) {
                 continue;
             }
-            let Some(passage) = self.passage(&connection, &seen.departure) else { continue };
+            let Some(passage) = self.passage(&toward, &seen.met.departure) else { continue };
             let response = lobes.response(|| (-k.x / k.t, seen.to_eye()));
             let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
             self.add_lamp(&light, &response, seen, &mut arriving, gathered);

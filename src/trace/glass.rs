@@ -12,7 +12,7 @@
 
 use super::medium::{Inside, Light4, in_medium};
 use super::split::Parted;
-use super::{Gathered, Leg, Lit, Path, Seen, Step, scaled};
+use super::{Gathered, Leg, Lit, Met, Path, Seen, Step, scaled};
 use crate::fresnel;
 use crate::spacetime::{FourVector, Rest, SightRay};
 use crate::surface::{Glass, Lobes, Look, Medium, Response, Surface, fade};
@@ -132,7 +132,7 @@ impl Lit<'_> {
         let path = seen.path.filtered(&seen.nm.map(part), &step);
         if !path.is_faint(self.faintest) {
             let path = Path { depth: path.depth - 1, way: seen.way, ..path };
-            let beyond = seen.spot.beyond(seen.hit.rest, 0.0);
+            let beyond = seen.met.spot.beyond(seen.met.hit.rest, 0.0);
             self.gather(&seen.straight_on(&beyond), seen.lanes, &path, gathered);
         }
     }
@@ -150,7 +150,7 @@ impl Lit<'_> {
         if let Some(hit) = contact {
             return self.meet_in_contact(&hit, seen, gathered);
         }
-        let from = seen.spot.beyond(seen.hit.rest, further);
+        let from = seen.met.spot.beyond(seen.met.hit.rest, further);
         let (near, far) = (self.medium_number(&seen.leg.inside), self.medium_number(&inside));
         if near == far {
             // Within something else that decides: nothing happens here.
@@ -224,7 +224,8 @@ impl Lit<'_> {
         let shift = self.effects.shift(omega);
         let nm = scaled(seen.lanes, 1.0 / shift);
         // Its light comes and goes on this side of the face, within the medium.
-        self.meet(surface, &Seen { hit, spot: &spot, omega, shift, nm, ..*seen }, gathered);
+        let met = Met { hit: *hit, spot, toward: &[], ..*seen.met };
+        self.meet(surface, &Seen { met: &met, omega, shift, nm, ..*seen }, gathered);
     }
 
     /// What is beyond a face, how far the last of the surfaces is that touch it (m, rest frame), and whether one of these
@@ -233,18 +234,19 @@ impl Lit<'_> {
         let toggled = |inside: Inside, medium: u32, outside: bool| {
             if outside { inside.with(medium) } else { inside.without(medium) }
         };
-        let alone = (toggled(seen.leg.inside, medium, seen.spot.outside), 0.0, None);
-        let gap = seen.spot.grain;
+        let alone = (toggled(seen.leg.inside, medium, seen.met.spot.outside), 0.0, None);
+        let gap = seen.met.spot.grain;
         // Along the ray it is longer by the slant, and no longer than the ray.
-        let steep = seen.spot.k.x.dot(seen.spot.facet_normal).abs().max(0.05 * seen.spot.k.x.length());
-        let reach = (gap / steep).min(0.5 * seen.hit.s);
-        let ray = SightRay { event: seen.leg.ray.at(seen.hit.s - reach), ..seen.leg.ray };
+        let steep =
+            seen.met.spot.k.x.dot(seen.met.spot.facet_normal).abs().max(0.05 * seen.met.spot.k.x.length());
+        let reach = (gap / steep).min(0.5 * seen.met.hit.s);
+        let ray = SightRay { event: seen.leg.ray.at(seen.met.hit.s - reach), ..seen.leg.ray };
         let mut crossed: Vec<(u32, bool)> = Vec::new();
         let mut contact = None;
         self.world.until(&ray, None, 2.0 * reach, self.crowd.as_ref(), |hit| {
             let Some(surface) = self.surfaces.get(hit.surface()) else { return false };
             let spot = hit.spot(&ray);
-            let own = (hit.surface() == seen.hit.surface()).then_some(medium);
+            let own = (hit.surface() == seen.met.hit.surface()).then_some(medium);
             if let Some(other) = own.or_else(|| surface.medium()) {
                 crossed.push((other, spot.outside));
             } else if surface.is_solid(&Look { hit: &hit, spot: &spot, radius: 0.0 }) {
@@ -254,7 +256,7 @@ impl Lit<'_> {
         });
         if let Some(hit) = contact {
             // Its s counts from the start of the ray.
-            return (alone.0, 0.0, Some(hit.later(seen.hit.s - reach)));
+            return (alone.0, 0.0, Some(hit.later(seen.met.hit.s - reach)));
         }
         crossed.sort_unstable();
         crossed.dedup();
@@ -268,11 +270,11 @@ impl Lit<'_> {
 
     fn face<const N: usize>(&self, inside: &Inside, normal: DVec3, seen: &Seen<'_, N>) -> Face<'_> {
         let leaving = if seen.leg.inside.is_empty() {
-            seen.spot.k
+            seen.met.spot.k
         } else {
-            seen.hit.rest.rest_from_lab.light(seen.leg.wave)
+            seen.met.hit.rest.rest_from_lab.light(seen.leg.wave)
         };
-        let facet_normal = seen.spot.facet_normal;
+        let facet_normal = seen.met.spot.facet_normal;
         let normal = if leaving.x.dot(normal) > 0.0 { normal } else { facet_normal };
         let (near, far) = (self.medium(&seen.leg.inside), self.medium(inside));
         Face { near, far, normal, facet_normal, leaving }
@@ -284,7 +286,7 @@ impl Lit<'_> {
         let at = on(face.normal);
         let through = |at: &AtFace| {
             at.refracted.is_none_or(|light| {
-                seen.hit.rest.rest_from_lab.light(light.step).x.dot(face.facet_normal) > 0.0
+                seen.met.hit.rest.rest_from_lab.light(light.step).x.dot(face.facet_normal) > 0.0
             })
         };
         // The interpolated normal would send the ray back out: the facet's own does not.
@@ -327,7 +329,7 @@ impl Lit<'_> {
         let Going { leaving, normal, sense } = going;
         let along = leaving.x - normal * leaving.x.dot(normal);
         let omega = leaving.t;
-        let rest = &seen.hit.rest.rest_from_lab;
+        let rest = &seen.met.hit.rest.rest_from_lab;
         let Some(medium) = medium else {
             let squared = omega * omega - along.length_squared();
             let wave = FourVector::new(omega, along + normal * (sense * positive_root(squared)?));
@@ -355,7 +357,7 @@ impl Lit<'_> {
     ) -> Option<Wave> {
         let Going { leaving, normal, sense } = going;
         let (omega, along) = (leaving.t, leaving.x - normal * leaving.x.dot(normal));
-        let rest = seen.hit.rest.rest_from_lab.boost();
+        let rest = seen.met.hit.rest.rest_from_lab.boost();
         let moving: FourVector<Rest> =
             rest * (medium.rest_from_lab.inverse() * FourVector::new(1.0, DVec3::ZERO));
         let (a, b) = (omega * moving.t - along.dot(moving.x), normal.dot(moving.x));
@@ -395,16 +397,16 @@ impl Lit<'_> {
         normal: DVec3,
         seen: &'s Seen<'_, N>,
     ) -> Option<Leg<'s>> {
-        let leaving = seen.hit.rest.rest_from_lab.light(seen.leg.wave);
+        let leaving = seen.met.hit.rest.rest_from_lab.light(seen.leg.wave);
         let medium = self.medium(&seen.leg.inside);
         let arriving =
             |normal| self.wave(medium, Going { leaving, normal, sense: -1.0 }, seen, seen.lanes[0]);
         let toward = |wave: &Wave| {
-            seen.hit.rest.rest_from_lab.light(wave.light.step).x.dot(seen.spot.facet_normal) < 0.0
+            seen.met.hit.rest.rest_from_lab.light(wave.light.step).x.dot(seen.met.spot.facet_normal) < 0.0
         };
-        let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.spot.facet_normal))?;
-        let ray = SightRay { event: seen.departure.event, k: wave.light.step };
-        Some(Leg { ray, from: Some(&seen.departure), wave: wave.light.wave, inside: seen.leg.inside })
+        let wave = arriving(normal).filter(toward).or_else(|| arriving(seen.met.spot.facet_normal))?;
+        let ray = SightRay { event: seen.met.departure.event, k: wave.light.step };
+        Some(Leg { ray, from: Some(&seen.met.departure), wave: wave.light.wave, inside: seen.leg.inside })
     }
 }
 
@@ -419,7 +421,7 @@ impl<const N: usize> Lanes<N> {
 
     /// How far neighbours part, in pixels. On its way out the light parts about as much again, and by the index more.
     fn apart(&self, index: f64, seen: &Seen<'_, N>) -> [f64; N] {
-        let rest = seen.hit.rest.rest_from_lab;
+        let rest = seen.met.hit.rest.rest_from_lab;
         let directions =
             self.all.map(|at| at.refracted.map(|light| (rest * light.step).x.normalize_or(DVec3::Z)));
         std::array::from_fn(|i| match (directions[i], directions.get(i + 1).copied().flatten()) {

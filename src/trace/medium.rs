@@ -164,7 +164,7 @@ impl Lit<'_> {
         let absorbing = self.medium(&seen.leg.inside).and_then(|m| Some((m, m.absorption.as_ref()?)));
         let Some((medium, absorption)) = absorbing else { return self.meet(surface, seen, gathered) };
         let shift = self.effects.shift(medium.rest_from_lab.light(seen.leg.wave).t);
-        let way = medium.rest_from_lab.light(seen.leg.ray.k).x.length() * seen.hit.s;
+        let way = medium.rest_from_lab.light(seen.leg.ray.k).x.length() * seen.met.hit.s;
         let part = |nm: f64| absorption.after(way, nm);
         let step = Step { before: seen.path.steps, part: &part, shift };
         let parts = seen.lanes.map(|lane| part(lane / shift));

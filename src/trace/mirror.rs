@@ -76,15 +76,15 @@ impl Lit<'_> {
             return;
         }
         let leg = if seen.leg.inside.is_empty() {
-            let mut arriving = seen.spot.k;
+            let mut arriving = seen.met.spot.k;
             arriving.x = before_mirror(arriving.x, normal);
-            if arriving.x.dot(seen.spot.facet_normal) >= 0.0 {
+            if arriving.x.dot(seen.met.spot.facet_normal) >= 0.0 {
                 // The interpolated normal would send the ray through the surface: the facet's own does not.
-                arriving.x = before_mirror(seen.spot.k.x, seen.spot.facet_normal);
+                arriving.x = before_mirror(seen.met.spot.k.x, seen.met.spot.facet_normal);
             }
-            let k = seen.hit.rest.rest_from_lab.boost().inverse().light(arriving);
-            let ray = SightRay { event: seen.departure.event, k };
-            Leg { ray, from: Some(&seen.departure), wave: k, inside: seen.leg.inside }
+            let k = seen.met.hit.rest.rest_from_lab.boost().inverse().light(arriving);
+            let ray = SightRay { event: seen.met.departure.event, k };
+            Leg { ray, from: Some(&seen.met.departure), wave: k, inside: seen.leg.inside }
         } else {
             let Some(leg) = self.reflected_inside(normal, seen) else { return };
             leg

@@ -14,6 +14,7 @@ mod first;
 mod glass;
 mod medium;
 mod mirror;
+mod packet;
 mod passage;
 mod split;
 
@@ -26,6 +27,7 @@ use crate::spacetime::{Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
 use crate::surface::{Glow, Look, Medium, Scatter, Surface};
 use crate::world::{Crowd, Departure, Hit, Spot, World};
+use direct::Toward;
 use glam::DVec3;
 use medium::Inside;
 
@@ -64,6 +66,8 @@ pub struct Lit<'a> {
     pub world: &'a World,
     /// Which of them a ray can meet, where they have many velocities: see [`Self::seen_from`].
     pub crowd: Option<Crowd>,
+    /// An event that is in no medium: sight rays that begin there need not look for one.
+    pub in_vacuum: Option<Event>,
     /// Surfaces, by the numbers that hits give.
     pub surfaces: &'a [Surface],
     /// What fills closed bodies of glass, by the numbers that their surfaces give.
@@ -173,11 +177,27 @@ impl<'p, const N: usize> Path<'p, N> {
     }
 }
 
+/// What a ray has met.
+#[derive(Clone, Copy)]
+struct Met<'w> {
+    hit: Hit<'w>,
+    spot: Spot,
+    departure: Departure<'w>,
+    // The ways to the lamps, of those that have been asked.
+    toward: &'w [Option<Toward>],
+}
+
+impl<'w> Met<'w> {
+    #[inline]
+    fn new(hit: Hit<'w>, ray: &SightRay) -> Self {
+        let spot = hit.spot(ray);
+        Self { departure: spot.departure(hit.rest), hit, spot, toward: &[] }
+    }
+}
+
 /// A hit with what the observer's terms become there.
 struct Seen<'h, const N: usize> {
-    hit: &'h Hit<'h>,
-    spot: &'h Spot,
-    departure: Departure<'h>,
+    met: &'h Met<'h>,
     leg: &'h Leg<'h>,
     // The light's frequency at the surface, in units of what the observer sees.
     omega: f64,
@@ -195,12 +215,12 @@ struct Seen<'h, const N: usize> {
 
 impl<const N: usize> Seen<'_, N> {
     fn look(&self) -> Look<'_> {
-        Look { hit: self.hit, spot: self.spot, radius: self.radius }
+        Look { hit: &self.met.hit, spot: &self.met.spot, radius: self.radius }
     }
 
     /// The direction to where the light goes, unit, in the surface's rest frame.
     fn to_eye(&self) -> DVec3 {
-        self.spot.k.x / self.spot.k.x.length()
+        self.met.spot.k.x / self.met.spot.k.x.length()
     }
 
     /// The ray beyond the surface as if that were not there.
@@ -211,7 +231,7 @@ impl<const N: usize> Seen<'_, N> {
 
     /// The body's own time.
     fn tau(&self) -> f64 {
-        self.spot.event.t - self.hit.placed.clock_zero
+        self.met.spot.event.t - self.met.hit.placed.clock_zero
     }
 
     /// The same seen through something more.
@@ -235,7 +255,9 @@ impl Lit<'_> {
     /// The same, made ready for rays to one event; for others it is right as well.
     #[must_use]
     pub fn seen_from(&self, event: Event) -> Self {
-        Self { crowd: self.world.crowd(event), ..self.clone() }
+        let medium = |number: usize| self.surfaces.get(number).and_then(Surface::medium);
+        let in_vacuum = (!self.media.is_empty() && !self.world.may_enclose(event, medium)).then_some(event);
+        Self { crowd: self.world.crowd(event), in_vacuum, ..self.clone() }
     }
 
     /// The light that arrives along a sight ray.
@@ -265,6 +287,11 @@ impl Lit<'_> {
         self.gathered(ray, cone, wavelengths, Some(bands))
     }
 
+    /// Whether nothing need be asked to know that a sight ray begins in no medium.
+    fn begins_in_vacuum(&self, ray: &SightRay) -> bool {
+        self.media.is_empty() || self.in_vacuum == Some(ray.event)
+    }
+
     fn gathered<const N: usize>(
         &self,
         ray: &SightRay,
@@ -277,7 +304,7 @@ impl Lit<'_> {
         let path =
             Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
         let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
-        if self.media.is_empty() {
+        if self.begins_in_vacuum(ray) {
             self.gather(&leg, &wavelengths.nm, &path, &mut gathered);
         } else {
             self.start_inside(&leg, &wavelengths.nm, &path, &mut gathered);
@@ -295,11 +322,25 @@ impl Lit<'_> {
         if gathered.caught.is_some() && leg.inside.is_empty() && path.throughput[0] > gathered.exit.0 {
             gathered.exit = (path.throughput[0], leg.wave);
         }
-        let Some(hit) = self.world.nearest_from(&leg.ray, leg.from, self.crowd.as_ref()) else {
-            return self.add_surroundings(leg, lanes, path, gathered);
-        };
+        match self.world.nearest_from(&leg.ray, leg.from, self.crowd.as_ref()) {
+            Some(hit) => {
+                self.arrive(&Met::new(hit, &leg.ray), leg, lanes, path, gathered);
+            }
+            None => self.add_surroundings(leg, lanes, path, gathered),
+        }
+    }
+
+    /// Where a ray has come to.
+    fn arrive<const N: usize>(
+        &self,
+        met: &Met<'_>,
+        leg: &Leg<'_>,
+        lanes: &[f64; N],
+        path: &Path<'_, N>,
+        gathered: &mut Gathered<'_, N>,
+    ) {
+        let Met { hit, spot, .. } = met;
         let Some(surface) = self.surfaces.get(hit.surface()) else { return };
-        let spot = hit.spot(&leg.ray);
         let in_vacuum = leg.inside.is_empty();
         let omega = if in_vacuum { spot.k.t } else { hit.rest.rest_from_lab.light(leg.wave).t };
         if omega <= 0.0 {
@@ -308,9 +349,7 @@ impl Lit<'_> {
         let shift = self.effects.shift(omega);
         let way = path.way + if in_vacuum { hit.s } else { self.slowed(leg, lanes[0], hit.s) };
         let seen = Seen {
-            departure: spot.departure(hit.rest),
-            hit: &hit,
-            spot: &spot,
+            met,
             leg,
             omega,
             shift,
@@ -343,7 +382,7 @@ impl Lit<'_> {
             let path =
                 Path { veils: seen.path.veils - 1, way: seen.way, ..seen.path.dimmed(1.0 - share, &step) };
             if !path.is_faint(self.faintest) {
-                let beyond = seen.spot.beyond(seen.hit.rest, 0.0);
+                let beyond = seen.met.spot.beyond(seen.met.hit.rest, 0.0);
                 self.gather(&seen.straight_on(&beyond), seen.lanes, &path, gathered);
             }
         }

@@ -4,6 +4,7 @@
 //! a lens makes of it (caustics) cannot be found by going back from the surface.
 
 use super::Lit;
+use super::direct::Toward;
 use crate::fresnel;
 use crate::lamp::Connection;
 use crate::surface::{Glass, Look, Scatter, Surface, Tint};
@@ -112,9 +113,13 @@ impl Colored<'_> {
 impl Lit<'_> {
     /// What is left of a lamp's light where it arrives; none if nothing is.
     #[inline]
-    pub(super) fn passage(&self, connection: &Connection, from: &Departure<'_>) -> Option<Passage<'_>> {
-        if self.see_through {
-            return self.passage_through(connection, from);
+    pub(super) fn passage(&self, toward: &Toward, from: &Departure<'_>) -> Option<Passage<'_>> {
+        let connection = &toward.connection;
+        match toward.blocked {
+            Some(false) => return Some(Passage::CLEAR),
+            Some(true) if !self.see_through => return None,
+            _ if self.see_through => return self.passage_through(connection, from),
+            _ => {}
         }
         (!self.world.blocked(&connection.ray, Some(from), connection.s_lamp, self.crowd.as_ref()))
             .then_some(Passage::CLEAR)

@@ -6,15 +6,21 @@
 //! misses, so it only builds.)
 
 mod collapse;
+mod lines;
 mod open;
+mod packet;
 mod space;
 mod wide;
 
 use glam::Vec3;
+pub(crate) use lines::{Each, each};
+pub use lines::{Lines, MANY};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 pub(crate) use open::Open;
+use packet::Packet;
+pub(crate) use packet::VisitMany;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 pub use space::{Bounds, Line};
@@ -130,6 +136,46 @@ impl Tree {
             return s_max;
         }
         self.space.enter(line, s_max).map_or(s_max, |entered| self.walk_on(entered, s_max, visit))
+    }
+
+    /// Calls `visit` with every item whose box one of some lines may meet at 0 < s < its limit. `visit` may lower the limits; a
+    /// negative one ends its line's walk.
+    pub(crate) fn walk_many(
+        &self,
+        lines: &Lines,
+        limits: &mut Each<f64>,
+        mut visit: impl FnMut(u32, &mut Each<f64>),
+    ) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut packet = Packet::of(&self.space, lines, limits);
+        if packet.farthest() < 0.0 {
+            return;
+        }
+        let mut open = Entries::new();
+        let mut at = 0_u32;
+        loop {
+            let node = &self.nodes[at as usize];
+            let near = [packet.entry(node.lo[0], node.hi[0]), packet.entry(node.lo[1], node.hi[1])];
+            let order = if near[1] < near[0] { [1, 0] } else { [0, 1] };
+            let mut next = None;
+            for side in order {
+                let Some(entry) = near[side].filter(|entry| *entry <= packet.farthest()) else { continue };
+                match (node.count[side], next) {
+                    (0, None) => next = Some(node.first[side]),
+                    (0, Some(_)) => open.push((entry, node.first[side])),
+                    _ => {}
+                }
+                let begin = node.first[side] as usize;
+                for &item in &self.items[begin..begin + node.count[side] as usize] {
+                    visit(item, limits);
+                    packet.limit_all(limits);
+                }
+            }
+            let Some(follow) = next.or_else(|| before(&mut open, packet.farthest())) else { return };
+            at = follow;
+        }
     }
 
     /// The rest of a walk, after its beginning.

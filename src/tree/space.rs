@@ -67,9 +67,9 @@ impl Bounds {
 pub(super) struct Space {
     pub(super) bounds: Bounds,
     // The bounds, widened by more than all padding.
-    entrance: Bounds,
-    centre: DVec3,
-    scale: f64,
+    pub(super) entrance: Bounds,
+    pub(super) centre: DVec3,
+    pub(super) scale: f64,
 }
 
 impl Space {
@@ -125,11 +125,12 @@ impl Space {
 }
 
 /// A line inside a tree: from the start with unit speed.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Entered {
     pub(super) start: Vec3,
     pub(super) inverse: Vec3,
-    first: f64,
-    length: f64,
+    pub(super) first: f64,
+    pub(super) length: f64,
     pub(super) t_max: f32,
 }
 

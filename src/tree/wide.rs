@@ -27,7 +27,7 @@ pub(super) struct Node {
 }
 
 /// A child that is a leaf of 1 to 4 blocks: their number less one, and the first of them.
-const LEAF: u32 = 1 << 31;
+pub(super) const LEAF: u32 = 1 << 31;
 
 /// Blocks of one leaf at most.
 pub(super) const BLOCKS: usize = 4;
@@ -45,7 +45,7 @@ pub(super) fn leaf(first: usize, blocks: usize) -> u32 {
 
 /// The blocks of a leaf.
 #[inline(always)]
-fn blocks_of(leaf: u32) -> Range<usize> {
+pub(super) fn blocks_of(leaf: u32) -> Range<usize> {
     let first = (leaf & 0x1fff_ffff) as usize;
     first..first + (leaf >> 29 & 3) as usize + 1
 }
@@ -59,9 +59,9 @@ pub(crate) const EMPTY: u32 = u32::MAX;
 /// A tree over blocks of four items.
 #[derive(Debug, Clone)]
 pub(crate) struct Wide {
-    space: Space,
-    nodes: Vec<Node>,
-    root: u32,
+    pub(super) space: Space,
+    pub(super) nodes: Vec<Node>,
+    pub(super) root: u32,
 }
 
 /// What is done with the leaves.
@@ -115,7 +115,7 @@ impl Wide {
     /// The same without the best instruction set.
     #[cfg(test)]
     pub(crate) fn walk_plainly<V: Visit>(&self, entered: Entered, s_max: f64, visit: &mut V) -> f64 {
-        walk_on(crate::simd::Plain, self, entered, s_max, visit)
+        walk_on(crate::simd::Plain, self, self.root, &mut { entered }, s_max, visit)
     }
 }
 
@@ -132,20 +132,27 @@ impl<V: Visit> Task for Walk<'_, V> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> f64 {
-        let Self { tree, entered, s_max, visit } = self;
-        walk_on(lanes, tree, entered, s_max, visit)
+        let Self { tree, mut entered, s_max, visit } = self;
+        walk_on(lanes, tree, tree.root, &mut entered, s_max, visit)
     }
 }
 
+/// A walk from some node on.
 #[inline(always)]
-fn walk_on<L: Lanes, V: Visit>(lanes: L, tree: &Wide, mut walk: Entered, s_max: f64, visit: &mut V) -> f64 {
+pub(super) fn walk_on<L: Lanes, V: Visit>(
+    lanes: L,
+    tree: &Wide,
+    mut at: u32,
+    walk: &mut Entered,
+    s_max: f64,
+    visit: &mut V,
+) -> f64 {
     let mut limit = s_max;
     let mut open = Open::new();
-    let mut at = tree.root;
     loop {
         let follow = if at & LEAF == 0 {
             let node = &tree.nodes[at as usize];
-            let (near, met) = entries(lanes, &walk, node);
+            let (near, met) = entries(lanes, walk, node);
             open.descend(&near, &node.child, met, V::BY_S)
         } else {
             let before = limit;

@@ -9,7 +9,7 @@ mod block;
 
 use crate::mesh::Mesh;
 use crate::simd::Lanes;
-use crate::tree::{Bounds, Line, Visit, Wide};
+use crate::tree::{Bounds, Each, Line, Lines, MANY, Visit, VisitMany, Wide};
 use block::Block;
 pub use block::Sheared;
 use glam::DVec3;
@@ -88,6 +88,20 @@ impl Triangles {
             .is_some_and(|until| until.stopped)
     }
 
+    /// The same as [`Self::nearest`] for up to 16 lines that go together, each to its limit of s.
+    pub fn nearest_many(&self, lines: &Lines, limits: &[f64; MANY]) -> [Option<Meeting>; MANY] {
+        let mut nearest = NearestMany { lines: Many::new(self, lines), met: [None; MANY] };
+        self.tree.walk_many(lines, limits, &mut nearest);
+        nearest.met
+    }
+
+    /// The same as [`Self::any`] for up to 16 lines that go together: bit by bit.
+    pub fn any_many(&self, lines: &Lines, limits: &[f64; MANY]) -> u32 {
+        let mut any = AnyMany { lines: Many::new(self, lines), met: 0 };
+        self.tree.walk_many(lines, limits, &mut any);
+        any.met
+    }
+
     /// The line, to be tested against triangles one by one: what a walk does to those that it leads to.
     #[inline]
     pub fn sheared(&self, line: &Line) -> Sheared {
@@ -145,16 +159,85 @@ impl Visit for Nearest<'_> {
     const BY_S: bool = true;
 
     #[inline(always)]
-    fn look<L: Lanes>(&mut self, lanes: L, blocks: Range<usize>, mut limit: f64) -> f64 {
-        meetings(lanes, self.blocks, blocks, &self.line, |meeting| {
-            // Both triangles at an edge may be met at the same s.
-            let wins = |met: Meeting| meeting.s == met.s && meeting.triangle < met.triangle;
-            if meeting.s > 0.0 && (meeting.s < limit || self.met.is_some_and(wins)) {
-                self.met = Some(meeting);
-                limit = meeting.s;
-            }
+    fn look<L: Lanes>(&mut self, lanes: L, blocks: Range<usize>, limit: f64) -> f64 {
+        nearer(lanes, self.blocks, blocks, &self.line, limit, &mut self.met)
+    }
+}
+
+/// Puts the first meeting in some blocks in place of the first so far if it comes before; returns the limit of s.
+#[inline(always)]
+fn nearer<L: Lanes>(
+    lanes: L,
+    blocks: &[Block],
+    among: Range<usize>,
+    line: &Sheared,
+    mut limit: f64,
+    first: &mut Option<Meeting>,
+) -> f64 {
+    meetings(lanes, blocks, among, line, |meeting| {
+        // Both triangles at an edge may be met at the same s.
+        let wins = |met: Meeting| meeting.s == met.s && meeting.triangle < met.triangle;
+        if meeting.s > 0.0 && (meeting.s < limit || first.is_some_and(wins)) {
+            *first = Some(meeting);
+            limit = meeting.s;
+        }
+    });
+    limit
+}
+
+/// Lines that go together, each made ready for triangles when it comes to the first.
+struct Many<'a> {
+    triangles: &'a Triangles,
+    lines: &'a Lines,
+    sheared: Each<Option<Sheared>>,
+}
+
+impl<'a> Many<'a> {
+    fn new(triangles: &'a Triangles, lines: &'a Lines) -> Self {
+        Self { triangles, lines, sheared: [None; MANY] }
+    }
+
+    #[inline(always)]
+    fn line(&mut self, i: usize) -> &Sheared {
+        let Self { triangles, lines, sheared } = self;
+        sheared[i].get_or_insert_with(|| triangles.sheared(&lines.line(i)))
+    }
+}
+
+/// Looks for the first of each line.
+struct NearestMany<'a> {
+    lines: Many<'a>,
+    met: Each<Option<Meeting>>,
+}
+
+impl VisitMany for NearestMany<'_> {
+    const BY_S: bool = true;
+
+    #[inline(always)]
+    fn look<L: Lanes>(&mut self, lanes: L, line: usize, blocks: Range<usize>, limit: f64) -> f64 {
+        let all = &self.lines.triangles.blocks;
+        nearer(lanes, all, blocks, self.lines.line(line), limit, &mut self.met[line])
+    }
+}
+
+/// Looks whether each line meets anything.
+struct AnyMany<'a> {
+    lines: Many<'a>,
+    met: u32,
+}
+
+impl VisitMany for AnyMany<'_> {
+    const BY_S: bool = false;
+
+    #[inline(always)]
+    fn look<L: Lanes>(&mut self, lanes: L, line: usize, blocks: Range<usize>, limit: f64) -> f64 {
+        let all = &self.lines.triangles.blocks;
+        let mut stopped = false;
+        meetings(lanes, all, blocks, self.lines.line(line), |meeting| {
+            stopped = stopped || (meeting.s > 0.0 && meeting.s < limit);
         });
-        limit
+        self.met |= u32::from(stopped) << line;
+        if stopped { -1.0 } else { limit }
     }
 }
 
@@ -197,10 +280,13 @@ mod tests {
         let positions = (0..3 * count).map(corner).collect();
         let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let mesh = Triangles::new(Arc::new(Mesh { positions, triangles, ..Mesh::default() }));
+        let line = |i: u32| {
+            let origin = 2.0 * spread(11 * i).as_dvec3();
+            Line { origin, step: spread(13 * i).as_dvec3() - origin }
+        };
         let mut met = 0;
         for i in 0..20_000 {
-            let origin = 2.0 * spread(11 * i).as_dvec3();
-            let line = Line { origin, step: spread(13 * i).as_dvec3() - origin };
+            let line = line(i);
             let plain = mesh.tree.enter(&line, f64::INFINITY).and_then(|entered| {
                 let mut nearest = Nearest { blocks: &mesh.blocks, line: mesh.sheared(&line), met: None };
                 mesh.tree.walk_plainly(entered, f64::INFINITY, &mut nearest);
@@ -210,5 +296,12 @@ mod tests {
             met += u32::from(plain.is_some());
         }
         assert!((5_000..20_000).contains(&met), "{met}");
+        for first in (0..20_000).step_by(MANY) {
+            let some = (0..MANY as u32).map(|i| line(first + i / 4));
+            let (lines, limits) = (Lines::of(some), [f64::INFINITY; MANY]);
+            let mut plain = NearestMany { lines: Many::new(&mesh, &lines), met: [None; MANY] };
+            mesh.tree.walk_many_plainly(&lines, &limits, &mut plain);
+            assert_eq!(mesh.nearest_many(&lines, &limits), plain.met);
+        }
     }
 }

@@ -13,7 +13,8 @@ use placed::Met;
 pub use placed::{Form, Placed};
 
 use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
-use crate::tree::{Bounds, Line, Tree};
+use crate::tree::{Bounds, Each, Line, Lines, MANY, Tree, each};
+use smallvec::SmallVec;
 
 /// So many are asked one by one.
 const FEW: usize = 3;
@@ -47,43 +48,61 @@ impl RestFrame {
         self.in_tree..self.placed.len() as u32
     }
 
-    /// Where a ray starts, here: without the way through the lab if it comes from a body of this frame.
+    /// A ray here: from a body of this frame without the way through the lab.
     #[inline]
-    fn start(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Event<Rest> {
-        match from {
+    fn line(&self, ray: &SightRay, from: Option<&Departure<'_>>) -> Line {
+        let start = match from {
             Some(from) if std::ptr::eq(from.rest, self) => from.at,
             _ => self.rest_from_lab * ray.event,
-        }
+        };
+        Line { origin: start.x, step: -self.rest_from_lab.light(ray.k).x }
     }
 
     fn nearest(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> Option<(u32, Met)> {
-        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
-        let line = Line { origin: ray.event.x, step: -ray.k.x };
+        let line = self.line(ray, from);
         let mut nearest = None;
-        let limit = self.tree.walk(&line, s_max, |number, limit| {
-            match self.placed[number as usize].nearest(&ray, limit) {
-                Some(met) => {
-                    nearest = Some((number, met));
-                    met.s()
-                }
-                None => limit,
-            }
+        let mut limit = self.tree.walk(&line, s_max, |number, limit| {
+            let met = self.placed[number as usize].nearest(&line, limit.next_up());
+            met.map_or(limit, |met| nearer(number, met, limit, &mut nearest))
         });
         for number in self.apart() {
-            let limit = nearest.map_or(limit, |(_, met)| met.s());
-            nearest = self.placed[number as usize].nearest(&ray, limit).map(|met| (number, met)).or(nearest);
+            let met = self.placed[number as usize].nearest(&line, limit.next_up());
+            limit = met.map_or(limit, |met| nearer(number, met, limit, &mut nearest));
         }
         nearest
     }
 
     fn any(&self, ray: &SightRay, from: Option<&Departure<'_>>, s_max: f64) -> bool {
-        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
-        let line = Line { origin: ray.event.x, step: -ray.k.x };
+        let line = self.line(ray, from);
         let met = |number: u32, limit| {
-            if self.placed[number as usize].any(&ray, limit) { -1.0 } else { limit }
+            if self.placed[number as usize].any(&line, limit) { -1.0 } else { limit }
         };
         self.tree.walk(&line, s_max, met) < 0.0
-            || self.apart().any(|number| self.placed[number as usize].any(&ray, s_max))
+            || self.apart().any(|number| self.placed[number as usize].any(&line, s_max))
+    }
+
+    /// The same as [`Self::nearest`] for lines that go together: each limit of s becomes that of what is met.
+    fn nearest_many(&self, lines: &Lines, limits: &mut Each<f64>) -> Each<Option<(u32, Met)>> {
+        let mut nearest = [None; MANY];
+        let mut look = |number: u32, limits: &mut Each<f64>| {
+            let within = each(|i| limits[i].next_up());
+            self.placed[number as usize].nearest_many(lines, &within, |i, met| {
+                limits[i] = nearer(number, met, limits[i], &mut nearest[i]);
+            });
+        };
+        self.tree.walk_many(lines, limits, &mut look);
+        self.apart().for_each(|number| look(number, limits));
+        nearest
+    }
+
+    /// The same as [`Self::any`] for lines that go together: their limits become negative where something is met.
+    fn any_many(&self, lines: &Lines, limits: &mut Each<f64>) {
+        let look = |number: u32, limits: &mut Each<f64>| {
+            let met = self.placed[number as usize].any_many(lines, limits);
+            (0..MANY).filter(|i| met >> i & 1 == 1).for_each(|i| limits[i] = -1.0);
+        };
+        self.tree.walk_many(lines, limits, look);
+        self.apart().for_each(|number| look(number, limits));
     }
 
     fn until<'w>(
@@ -93,17 +112,31 @@ impl RestFrame {
         s_max: f64,
         enough: &mut dyn FnMut(Hit<'w>) -> bool,
     ) -> bool {
-        let ray = SightRay { event: self.start(ray, from), k: self.rest_from_lab.light(ray.k) };
-        let line = Line { origin: ray.event.x, step: -ray.k.x };
+        let line = self.line(ray, from);
         let mut stops = |number: u32| {
             let placed = &self.placed[number as usize];
             let mut met = |met: Met| enough(Hit { s: met.s(), rest: self, placed, met });
-            placed.until(&ray, s_max, &mut met)
+            placed.until(&line, s_max, &mut met)
         };
         self.tree.walk(&line, s_max, |number, limit| if stops(number) { -1.0 } else { limit }) < 0.0
             || self.apart().any(stops)
     }
 }
+
+/// Puts what is met in place of what was met so far if it comes before; returns the limit of s. (At the same s it is that with the
+/// smallest number, whichever was asked first.)
+#[inline]
+fn nearer(number: u32, met: Met, limit: f64, nearest: &mut Option<(u32, Met)>) -> f64 {
+    let s = met.s();
+    if s < limit || nearest.is_some_and(|(other, before)| s == before.s() && number < other) {
+        *nearest = Some((number, met));
+        return s;
+    }
+    limit
+}
+
+/// Rest frames by number, and which of some rays each is for, bit by bit.
+type Meeting = SmallVec<[(u32, u32); MANY]>;
 
 /// All bodies.
 #[derive(Debug, Clone, Default)]
@@ -153,14 +186,94 @@ impl World {
         crowd: Option<&Crowd>,
     ) -> Option<Hit<'_>> {
         let mut nearest: Option<Hit<'_>> = None;
-        self.ask(crowd, ray, f64::INFINITY, |rest, limit| match rest.nearest(ray, from, limit) {
+        self.ask(crowd, ray, f64::INFINITY, |rest, limit| match rest.nearest(ray, from, limit.next_up()) {
             Some((number, met)) => {
-                nearest = Some(Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met });
-                met.s()
+                let hit = Hit { s: met.s(), rest, placed: &rest.placed[number as usize], met };
+                self.nearer(hit, limit, &mut nearest)
             }
             None => limit,
         });
         nearest
+    }
+
+    /// The same as [`Self::nearest_from`] for up to 16 rays of no body that go together.
+    pub fn nearest_many(&self, rays: &[SightRay], crowd: Option<&Crowd>) -> [Option<Hit<'_>>; MANY] {
+        let mut nearest = [None; MANY];
+        let mut limits = [f64::INFINITY; MANY];
+        let met = self.meeting(rays.iter().map(|ray| (ray, f64::INFINITY)), crowd);
+        Self::ask_many(rays.len(), &met, &mut limits, |number, limits| {
+            let rest = &self.frames[number as usize];
+            let lines = Lines::of(rays.iter().map(|ray| rest.line(ray, None)));
+            let mut within = each(|i| limits[i].next_up());
+            for (i, found) in rest.nearest_many(&lines, &mut within).into_iter().enumerate() {
+                let Some((placed, met)) = found else { continue };
+                let hit = Hit { s: met.s(), rest, placed: &rest.placed[placed as usize], met };
+                limits[i] = self.nearer(hit, limits[i], &mut nearest[i]);
+            }
+        });
+        nearest
+    }
+
+    /// The same as [`Self::blocked`] for up to 16 rays that go together, each with where it leaves and its limit of s: bit by bit.
+    pub fn blocked_many(&self, rays: &[(&SightRay, &Departure<'_>, f64)], crowd: Option<&Crowd>) -> u32 {
+        let mut limits = each(|i| rays.get(i).map_or(-1.0, |(.., s_max)| *s_max));
+        let met = self.meeting(rays.iter().map(|(ray, _, s_max)| (*ray, *s_max)), crowd);
+        Self::ask_many(rays.len(), &met, &mut limits, |number, limits| {
+            let rest = &self.frames[number as usize];
+            let lines = Lines::of(rays.iter().map(|(ray, from, _)| rest.line(ray, Some(from))));
+            rest.any_many(&lines, limits);
+        });
+        (0..rays.len().min(MANY)).filter(|i| limits[*i] < 0.0).fold(0, |bits, i| bits | 1 << i)
+    }
+
+    /// The rest frames that any of some rays may meet before its limit of s, and which of them, bit by bit.
+    fn meeting<'r>(&self, rays: impl Iterator<Item = (&'r SightRay, f64)>, crowd: Option<&Crowd>) -> Meeting {
+        let Some(crowd) = crowd else {
+            return (0..self.frames.len() as u32).map(|number| (number, !0)).collect();
+        };
+        let mut all = Meeting::new();
+        for (i, (ray, s_max)) in rays.enumerate() {
+            crowd.walk(ray, s_max, |number, limit| {
+                match all.iter_mut().find(|(known, _)| *known == number) {
+                    Some((_, who)) => *who |= 1 << i,
+                    None => all.push((number, 1 << i)),
+                }
+                limit
+            });
+        }
+        all
+    }
+
+    /// Asks rest frames for those of some rays that may meet them; the others have negative limits meanwhile.
+    fn ask_many(
+        count: usize,
+        meeting: &Meeting,
+        limits: &mut Each<f64>,
+        mut visit: impl FnMut(u32, &mut Each<f64>),
+    ) {
+        for (number, who) in meeting {
+            let mut within = each(|i| if i < count && who >> i & 1 == 1 { limits[i] } else { -1.0 });
+            if within.iter().all(|limit| *limit < 0.0) {
+                continue;
+            }
+            visit(*number, &mut within);
+            for (i, limit) in limits.iter_mut().enumerate().filter(|(i, _)| who >> i & 1 == 1) {
+                *limit = within[i];
+            }
+        }
+    }
+
+    /// Puts a hit in place of the nearest so far if it comes before; returns the limit of s. (At the same s it is that in the first
+    /// rest frame, whichever was asked first.)
+    #[inline]
+    fn nearer<'w>(&self, hit: Hit<'w>, limit: f64, nearest: &mut Option<Hit<'w>>) -> f64 {
+        let place = |hit: &Hit<'_>| self.frames.iter().position(|rest| std::ptr::eq(rest, hit.rest));
+        let wins = |other: &Hit<'_>| hit.s == other.s && place(&hit) < place(other);
+        if hit.s < limit || nearest.as_ref().is_some_and(wins) {
+            *nearest = Some(hit);
+            return hit.s;
+        }
+        limit
     }
 
     /// Whether anything stands in the way at 0 < s < `s_max`, of a ray that may leave a body.
@@ -172,6 +285,29 @@ impl World {
         crowd: Option<&Crowd>,
     ) -> bool {
         self.ask(crowd, ray, s_max, |rest, limit| if rest.any(ray, from, s_max) { -1.0 } else { limit }) < 0.0
+    }
+
+    /// Whether an event may be within what surfaces enclose: in the box of all those of a rest frame to which `of` gives the same
+    /// number, or something of them has no end.
+    pub fn may_enclose(&self, event: Event, of: impl Fn(usize) -> Option<u32>) -> bool {
+        self.frames.iter().any(|rest| {
+            let mut boxes: Vec<(u32, Option<Bounds>)> = Vec::new();
+            for placed in &rest.placed {
+                for number in placed.all_surfaces().filter_map(&of) {
+                    let own = placed.bounds();
+                    match boxes.iter_mut().find(|(known, _)| *known == number) {
+                        Some((_, all)) => *all = all.zip(own).map(|(all, own)| all.with(own)),
+                        None => boxes.push((number, own)),
+                    }
+                }
+            }
+            let x = (rest.rest_from_lab * event).x;
+            let holds = |all: Bounds| {
+                let pad = 1e-9 * (all.hi - all.lo + x.abs());
+                (all.lo - pad).cmple(x).all() && x.cmple(all.hi + pad).all()
+            };
+            boxes.iter().any(|(_, all)| all.is_none_or(holds))
+        })
     }
 
     /// The surfaces of solids without end that an event is within.

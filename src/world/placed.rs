@@ -1,8 +1,7 @@
 //! A mesh, or a solid, placed in the rest frame of a body.
 
 use crate::solid::{Crossing, Solid};
-use crate::spacetime::{Rest, SightRay};
-use crate::tree::{Bounds, Line};
+use crate::tree::{Bounds, Each, Line, Lines};
 use crate::triangles::{Meeting, Triangles};
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2};
 use std::sync::Arc;
@@ -95,6 +94,16 @@ impl Placed {
         }
     }
 
+    /// The numbers of its surfaces.
+    pub(super) fn all_surfaces(&self) -> impl Iterator<Item = usize> {
+        let parts = match &self.form {
+            Form::Mesh(triangles) => triangles.mesh.parts.as_slice(),
+            Form::Solid(_) => &[],
+        };
+        let first = parts.is_empty().then_some(0);
+        parts.iter().map(|part| part.material).chain(first).map(|number| (self.surfaces + number) as usize)
+    }
+
     /// Its box in the rest frame; none for what has no end.
     pub fn bounds(&self) -> Option<Bounds> {
         let own = match &self.form {
@@ -107,18 +116,19 @@ impl Placed {
         Some(Bounds { lo: bounds.lo - pad, hi: bounds.hi + pad })
     }
 
+    /// A line of the rest frame, in the form's own coordinates.
     #[inline]
-    fn line(&self, ray: &SightRay<Rest>) -> Line {
+    fn own(&self, line: &Line) -> Line {
         Line {
-            origin: self.form_from_rest.transform_point3(ray.event.x),
-            step: self.form_from_rest.transform_vector3(-ray.k.x),
+            origin: self.form_from_rest.transform_point3(line.origin),
+            step: self.form_from_rest.transform_vector3(line.step),
         }
     }
 
     /// The first meeting at 0 < s < `s_max`.
     #[inline]
-    pub(super) fn nearest(&self, ray: &SightRay<Rest>, s_max: f64) -> Option<Met> {
-        let line = self.line(ray);
+    pub(super) fn nearest(&self, line: &Line, s_max: f64) -> Option<Met> {
+        let line = self.own(line);
         match &self.form {
             Form::Mesh(triangles) => triangles.nearest(&line, s_max).map(Met::Triangle),
             Form::Solid(solid) => {
@@ -130,21 +140,40 @@ impl Placed {
 
     /// Whether there is any meeting at 0 < s < `s_max`.
     #[inline]
-    pub(super) fn any(&self, ray: &SightRay<Rest>, s_max: f64) -> bool {
+    pub(super) fn any(&self, line: &Line, s_max: f64) -> bool {
+        let line = self.own(line);
         match &self.form {
-            Form::Mesh(triangles) => triangles.any(&self.line(ray), s_max),
-            Form::Solid(solid) => solid.nearest(&self.line(ray), 0.0, s_max).is_some(),
+            Form::Mesh(triangles) => triangles.any(&line, s_max),
+            Form::Solid(solid) => solid.nearest(&line, 0.0, s_max).is_some(),
         }
     }
 
+    /// The same as [`Self::nearest`] for lines that go together, each to its limit of s.
+    pub(super) fn nearest_many(&self, lines: &Lines, limits: &Each<f64>, mut tell: impl FnMut(usize, Met)) {
+        if let Form::Mesh(triangles) = &self.form {
+            let met = triangles.nearest_many(&lines.through(&self.form_from_rest), limits);
+            for (i, meeting) in met.iter().enumerate() {
+                meeting.iter().for_each(|meeting| tell(i, Met::Triangle(*meeting)));
+            }
+        } else {
+            for (i, limit) in limits.iter().enumerate().take(lines.count()) {
+                self.nearest(&lines.line(i), *limit).into_iter().for_each(|met| tell(i, met));
+            }
+        }
+    }
+
+    /// The same as [`Self::any`] for lines that go together, bit by bit. Those with negative limits meet nothing.
+    pub(super) fn any_many(&self, lines: &Lines, limits: &Each<f64>) -> u32 {
+        if let Form::Mesh(triangles) = &self.form {
+            return triangles.any_many(&lines.through(&self.form_from_rest), limits);
+        }
+        let met = |i: &usize| limits[*i] > 0.0 && self.any(&lines.line(*i), limits[*i]);
+        (0..lines.count()).filter(met).fold(0, |bits, i| bits | 1 << i)
+    }
+
     /// All meetings at 0 < s < `s_max`, in no order, until one is enough: whether it was.
-    pub(super) fn until(
-        &self,
-        ray: &SightRay<Rest>,
-        s_max: f64,
-        enough: &mut dyn FnMut(Met) -> bool,
-    ) -> bool {
-        let line = self.line(ray);
+    pub(super) fn until(&self, line: &Line, s_max: f64, enough: &mut dyn FnMut(Met) -> bool) -> bool {
+        let line = self.own(line);
         match &self.form {
             Form::Mesh(triangles) => {
                 triangles.until(&line, s_max, &mut |meeting| enough(Met::Triangle(meeting)))
