@@ -33,6 +33,7 @@ fn glow_seen<const N: usize>(doppler: f64, kelvin: f64) -> DVec3 {
     let surfaces = [Surface::glowing(Glow { radiance, paint: None })];
     let lit = Lit {
         crowd: None,
+        in_vacuum: None,
         world: &world,
         surfaces: &surfaces,
         media: &[],
