@@ -126,9 +126,7 @@ impl<'a, const N: usize> Exposing<'a, N> {
                 rays.extend(self.sights(*place));
                 of.resize(rays.len(), number);
             }
-            for (rays, of) in rays.chunks(MANY).zip(of.chunks(MANY)) {
-                lit.seen_many(rays, &self.wavelengths, |i, light| add(&mut sums[of[i]], &light));
-            }
+            lit.seen_many(&rays, &self.wavelengths, |i, light| add(&mut sums[of[i]], &light));
             sums.iter().for_each(|(radiance, lines)| tell(self.mean(radiance, *lines)));
         }
     }

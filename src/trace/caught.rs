@@ -1,7 +1,6 @@
 //! Spectral lines as they arrive, before they become colours.
 
-use super::medium::Inside;
-use super::{Cone, Gathered, Leg, Light, Lit, MOST_VEILS, Path};
+use super::{Cone, Gathered, Leg, Light, Lit, Path};
 use crate::spacetime::SightRay;
 use crate::spectrum::Line;
 use glam::DVec3;
@@ -24,15 +23,8 @@ impl Lit<'_> {
         let mut light = Light { radiance: [0.0], lines: DVec3::ZERO };
         let mut gathered =
             Gathered { light: &mut light, caught: Some(Vec::new()), bands: None, exit: (0.0, ray.k) };
-        let path = Path {
-            throughput: [1.0],
-            steps: None,
-            depth: self.depth,
-            veils: MOST_VEILS,
-            way: 0.0,
-            cone: Cone::default(),
-        };
-        let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
+        let path = Path::new(self.depth, Cone::default());
+        let leg = Leg::of(ray);
         if self.begins_in_vacuum(ray) {
             self.gather(&leg, &[SOMEWHERE_NM], &path, &mut gathered);
         } else {

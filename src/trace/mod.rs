@@ -4,7 +4,7 @@
 //! at the observer's wavelength λ answers at λ/ω, where ω is the light's frequency there in units of what
 //! the observer sees, and what it answers is multiplied by ω⁻⁵ once.
 //!
-//! `mod.rs` follows a ray to what it meets; `direct.rs` is the light of lamps, `passage.rs` what becomes of it on
+//! `mod.rs` follows a ray to what it meets; `path.rs` is what a ray is on its way, `packet.rs` follows neighbours together; `direct.rs` is the light of lamps, `passage.rs` what becomes of it on
 //! the way to a surface; `mirror.rs` and `glass.rs` send rays on; `split.rs` parts the wavelengths where an index
 //! depends on them.
 
@@ -16,6 +16,7 @@ mod medium;
 mod mirror;
 mod packet;
 mod passage;
+mod path;
 mod split;
 
 pub use caught::SeenLine;
@@ -25,11 +26,10 @@ use crate::lamp::Lamp;
 use crate::scene::Sky;
 use crate::spacetime::{Event, FourVector, Rest, SightRay};
 use crate::spectrum::{Line, Reflectance, Source, Wavelengths};
-use crate::surface::{Glow, Look, Medium, Scatter, Surface};
-use crate::world::{Crowd, Departure, Hit, Spot, World};
-use direct::Toward;
+use crate::surface::{Glow, Medium, Scatter, Surface};
+use crate::world::{Crowd, World};
 use glam::DVec3;
-use medium::Inside;
+use path::{Leg, MOST_VEILS, Met, Path, Seen, Step};
 
 /// What of relativity is shown: each factor as it is, or set to one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,133 +113,6 @@ pub struct Cone {
     pub phase: f64,
 }
 
-/// The most surfaces with holes that are looked through one after another.
-const MOST_VEILS: u32 = 100;
-
-/// Part of a sight ray, from one surface to the next.
-#[derive(Debug, Clone, Copy)]
-struct Leg<'w> {
-    // The events of the light are `event - s k`. In vacuum k is its wave vector; in a medium it is slower.
-    ray: SightRay,
-    // The body that it leaves.
-    from: Option<&'w Departure<'w>>,
-    // The wave vector.
-    wave: FourVector,
-    inside: Inside,
-}
-
-/// What lies between the observer and where the light is now.
-#[derive(Clone, Copy)]
-struct Path<'p, const N: usize> {
-    // What the observer still gets of the light, at its wavelengths.
-    throughput: [f64; N],
-    // The same, for lines: step by step.
-    steps: Option<&'p Step<'p>>,
-    depth: u32,
-    veils: u32,
-    // The sum of s so far, by which the cone has widened.
-    way: f64,
-    cone: Cone,
-}
-
-/// Something that takes its part of the light, by wavelength where it stands.
-struct Step<'p> {
-    before: Option<&'p Self>,
-    part: &'p dyn Fn(f64) -> f64,
-    shift: f64,
-}
-
-impl Step<'_> {
-    /// What the observer gets of light that it sees at one wavelength.
-    fn throughput(&self, wavelength_nm: f64) -> f64 {
-        let before = self.before.map_or(1.0, |step| step.throughput(wavelength_nm));
-        before * (self.part)(wavelength_nm / self.shift)
-    }
-}
-
-impl<'p, const N: usize> Path<'p, N> {
-    /// With the same part taken of all wavelengths.
-    fn dimmed(&self, part: f64, step: &'p Step<'p>) -> Self {
-        Self { throughput: self.throughput.map(|value| value * part), steps: Some(step), ..*self }
-    }
-
-    /// With a part taken of each wavelength.
-    fn filtered(&self, parts: &[f64; N], step: &'p Step<'p>) -> Self {
-        let mut throughput = self.throughput;
-        for (value, part) in throughput.iter_mut().zip(parts) {
-            *value *= part;
-        }
-        Self { throughput, steps: Some(step), ..*self }
-    }
-
-    fn is_faint(&self, faintest: f64) -> bool {
-        self.throughput.iter().all(|value| *value <= faintest)
-    }
-}
-
-/// What a ray has met.
-#[derive(Clone, Copy)]
-struct Met<'w> {
-    hit: Hit<'w>,
-    spot: Spot,
-    departure: Departure<'w>,
-    // The ways to the lamps, of those that have been asked.
-    toward: &'w [Option<Toward>],
-}
-
-impl<'w> Met<'w> {
-    #[inline]
-    fn new(hit: Hit<'w>, ray: &SightRay) -> Self {
-        let spot = hit.spot(ray);
-        Self { departure: spot.departure(hit.rest), hit, spot, toward: &[] }
-    }
-}
-
-/// A hit with what the observer's terms become there.
-struct Seen<'h, const N: usize> {
-    met: &'h Met<'h>,
-    leg: &'h Leg<'h>,
-    // The light's frequency at the surface, in units of what the observer sees.
-    omega: f64,
-    // ω where wavelengths are concerned: 1 with the Doppler effect switched off.
-    shift: f64,
-    // The observer's wavelengths, and the same in the surface's rest frame, nm.
-    lanes: &'h [f64; N],
-    nm: [f64; N],
-    path: &'h Path<'h, N>,
-    // Half the width of what the sample sees, rest frame, m.
-    radius: f64,
-    // The sum of s up to here.
-    way: f64,
-}
-
-impl<const N: usize> Seen<'_, N> {
-    fn look(&self) -> Look<'_> {
-        Look { hit: &self.met.hit, spot: &self.met.spot, radius: self.radius }
-    }
-
-    /// The direction to where the light goes, unit, in the surface's rest frame.
-    fn to_eye(&self) -> DVec3 {
-        self.met.spot.k.x / self.met.spot.k.x.length()
-    }
-
-    /// The ray beyond the surface as if that were not there.
-    fn straight_on<'d>(&self, beyond: &'d Departure<'d>) -> Leg<'d> {
-        let ray = SightRay { event: beyond.event, ..self.leg.ray };
-        Leg { ray, from: Some(beyond), wave: self.leg.wave, inside: self.leg.inside }
-    }
-
-    /// The body's own time.
-    fn tau(&self) -> f64 {
-        self.met.spot.event.t - self.met.hit.placed.clock_zero
-    }
-
-    /// The same seen through something more.
-    fn through<'s>(&'s self, path: &'s Path<'s, N>) -> Seen<'s, N> {
-        Seen { path, ..*self }
-    }
-}
-
 /// What has been gathered for a sight ray.
 struct Gathered<'g, const N: usize> {
     light: &'g mut Light<N>,
@@ -301,9 +174,8 @@ impl Lit<'_> {
     ) -> Light<N> {
         let mut light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
         let mut gathered = Gathered { light: &mut light, bands, caught: None, exit: (0.0, ray.k) };
-        let path =
-            Path { throughput: [1.0; N], steps: None, depth: self.depth, veils: MOST_VEILS, way: 0.0, cone };
-        let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
+        let path = Path::new(self.depth, cone);
+        let leg = Leg::of(ray);
         if self.begins_in_vacuum(ray) {
             self.gather(&leg, &wavelengths.nm, &path, &mut gathered);
         } else {

@@ -4,8 +4,7 @@
 //! each has the light that it has by itself, to the bit.
 
 use super::direct::Toward;
-use super::medium::Inside;
-use super::{Cone, Gathered, Leg, Light, Lit, MOST_VEILS, Met, Path};
+use super::{Cone, Gathered, Leg, Light, Lit, Met, Path};
 use crate::spacetime::SightRay;
 use crate::spectrum::Wavelengths;
 use crate::surface::Scatter;
@@ -18,19 +17,31 @@ use smallvec::SmallVec;
 type Each<T> = SmallVec<[T; MANY]>;
 
 impl Lit<'_> {
-    /// The light that arrives along up to 16 sight rays, one after another: the same bits as by [`Lit::seen_within`].
+    /// The light that arrives along sight rays, one after another: the same bits as by [`Lit::seen_within`].
     pub fn seen_many<const N: usize>(
         &self,
         rays: &[(SightRay, Cone)],
         wavelengths: &Wavelengths<N>,
         mut tell: impl FnMut(usize, Light<N>),
     ) {
-        if rays.len() < 2 || !rays.iter().all(|(ray, _)| self.begins_in_vacuum(ray)) {
-            for (i, (ray, cone)) in rays.iter().enumerate() {
-                tell(i, self.seen_within(ray, *cone, wavelengths));
+        for (number, rays) in rays.chunks(MANY).enumerate() {
+            let mut tell = |i: usize, light| tell(number * MANY + i, light);
+            if rays.len() > 1 && rays.iter().all(|(ray, _)| self.begins_in_vacuum(ray)) {
+                self.seen_together(rays, wavelengths, tell);
+            } else {
+                let seen = |(ray, cone): &(SightRay, Cone)| self.seen_within(ray, *cone, wavelengths);
+                rays.iter().map(seen).enumerate().for_each(|(i, light)| tell(i, light));
             }
-            return;
         }
+    }
+
+    /// The same of up to 16 that begin in vacuum.
+    fn seen_together<const N: usize>(
+        &self,
+        rays: &[(SightRay, Cone)],
+        wavelengths: &Wavelengths<N>,
+        mut tell: impl FnMut(usize, Light<N>),
+    ) {
         let sight: Each<SightRay> = rays.iter().map(|(ray, _)| *ray).collect();
         let found = self.world.nearest_many(&sight, self.crowd.as_ref());
         let toward; // Outlives what borrows it.
@@ -47,15 +58,7 @@ impl Lit<'_> {
         for (i, (ray, cone)) in rays.iter().enumerate() {
             let mut light = Light { radiance: [0.0; N], lines: DVec3::ZERO };
             let mut gathered = Gathered { light: &mut light, bands: None, caught: None, exit: (0.0, ray.k) };
-            let path = Path {
-                throughput: [1.0; N],
-                steps: None,
-                depth: self.depth,
-                veils: MOST_VEILS,
-                way: 0.0,
-                cone: *cone,
-            };
-            let leg = Leg { ray: *ray, from: None, wave: ray.k, inside: Inside::default() };
+            let (path, leg) = (Path::new(self.depth, *cone), Leg::of(ray));
             match &met[i] {
                 Some(met) => self.arrive(met, &leg, &wavelengths.nm, &path, &mut gathered),
                 None => self.add_surroundings(&leg, &wavelengths.nm, &path, &mut gathered),
