@@ -25,6 +25,17 @@ pub fn planck(wavelength_nm: f64, temperature_k: f64) -> f64 {
     TWO_H_C2_PER_NM / (squared * squared * metres * expm1(HC_OVER_K_NM / (wavelength_nm * temperature_k)))
 }
 
+/// The same, and its slope, per nm.
+///
+/// ~~~text
+/// dB/dλ = B/λ (x eˣ/(eˣ - 1) - 5),      x = hc/λkT
+/// ~~~
+pub(super) fn planck_with_slope(wavelength_nm: f64, temperature_k: f64) -> (f64, f64) {
+    let value = planck(wavelength_nm, temperature_k);
+    let x = HC_OVER_K_NM / (wavelength_nm * temperature_k);
+    (value, value / wavelength_nm * (x + x / expm1(x) - 5.0))
+}
+
 /// `exp(x) - 1` for x ≥ 0 without a branch, so that a loop over wavelengths runs in vectors.
 ///
 /// Accuracy: 2e-13 relative for x > 1e-3, below that of first order in rounding over x.  Beyond x = 700 it

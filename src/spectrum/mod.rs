@@ -5,6 +5,7 @@
 //! no sample: it is kept apart ([`Line`]) and carried exactly.
 
 mod blackbody;
+mod daylight;
 mod index;
 mod lanes;
 mod metal;
@@ -13,9 +14,10 @@ mod source;
 mod table;
 
 pub use blackbody::planck;
+pub use daylight::D65;
 pub use index::Index;
 pub use lanes::Wavelengths;
 pub use metal::Metal;
 pub use reflectance::{Beyond, End, Reflectance, Tone};
 pub use source::{Illuminant, Line, Source, Spectrum};
-pub use table::{D65, Table, rows};
+pub use table::{Table, rows};

@@ -1,6 +1,6 @@
 //! Reflectances: what part of the light a surface throws back, at any wavelength.
 
-use super::table::{ROWS, add, between_rows};
+use super::table::{add, between_rows};
 use super::{Table, rows};
 use std::sync::LazyLock;
 
@@ -60,6 +60,8 @@ const OVER_NM: f64 = 40.0;
 const FIRST_NM: f64 = 380.0;
 const STEP_NM: f64 = 5.0;
 const LAST_ROW: f64 = 80.0;
+/// A power of two.
+const ROWS: usize = 128;
 
 /// The three curves row by row, and their steps to the next row.
 struct Primaries([([f64; 3], [f64; 3]); ROWS]);
@@ -148,7 +150,7 @@ fn extended(rgb: [f64; 3], beyond: Beyond, wavelength_nm: f64) -> f64 {
 #[expect(clippy::inline_always, reason = "the inside of the loop over wavelengths")]
 fn rgb_at(primaries: &Primaries, rgb: [f64; 3], wavelength_nm: f64) -> f64 {
     let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, LAST_ROW);
-    let (row, part) = between_rows(place);
+    let (row, part) = between_rows::<ROWS>(place);
     let (start, step) = &primaries.0[row];
     let curve = |j: usize| start[j] + part * step[j];
     rgb[0] * curve(0) + rgb[1] * curve(1) + rgb[2] * curve(2)

@@ -1,6 +1,7 @@
 //! Light sources' spectra: a smooth part at any wavelength, and lines.
 
-use super::table::{Filtered, add};
+use super::daylight::Filtered;
+use super::table::add;
 use super::{D65, Table, Tone, planck};
 use crate::color;
 

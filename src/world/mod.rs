@@ -8,13 +8,13 @@ mod hit;
 mod placed;
 
 pub use crowd::Crowd;
+use crowd::Meeting;
 pub use hit::{Departure, Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
 
 use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Each, Line, Lines, MANY, Tree, each};
-use smallvec::SmallVec;
 
 /// So many are asked one by one.
 const FEW: usize = 3;
@@ -135,9 +135,6 @@ fn nearer(number: u32, met: Met, limit: f64, nearest: &mut Option<(u32, Met)>) -
     limit
 }
 
-/// Rest frames by number, and which of some rays each is for, bit by bit.
-type Meeting = SmallVec<[(u32, u32); MANY]>;
-
 /// All bodies.
 #[derive(Debug, Clone, Default)]
 pub struct World {
@@ -226,22 +223,16 @@ impl World {
         (0..rays.len().min(MANY)).filter(|i| limits[*i] < 0.0).fold(0, |bits, i| bits | 1 << i)
     }
 
-    /// The rest frames that any of some rays may meet before its limit of s, and which of them, bit by bit.
-    fn meeting<'r>(&self, rays: impl Iterator<Item = (&'r SightRay, f64)>, crowd: Option<&Crowd>) -> Meeting {
-        let Some(crowd) = crowd else {
-            return (0..self.frames.len() as u32).map(|number| (number, !0)).collect();
-        };
-        let mut all = Meeting::new();
-        for (i, (ray, s_max)) in rays.enumerate() {
-            crowd.walk(ray, s_max, |number, limit| {
-                match all.iter_mut().find(|(known, _)| *known == number) {
-                    Some((_, who)) => *who |= 1 << i,
-                    None => all.push((number, 1 << i)),
-                }
-                limit
-            });
+    /// The rest frames that any of some rays may meet before its limit of s.
+    fn meeting<'r>(
+        &self,
+        rays: impl Iterator<Item = (&'r SightRay, f64)> + Clone,
+        crowd: Option<&Crowd>,
+    ) -> Meeting {
+        match crowd {
+            Some(crowd) => crowd.meeting(rays),
+            None => (0..self.frames.len() as u32).map(|number| (number, [0.0; MANY])).collect(),
         }
-        all
     }
 
     /// Asks rest frames for those of some rays that may meet them; the others have negative limits meanwhile.
@@ -251,15 +242,14 @@ impl World {
         limits: &mut Each<f64>,
         mut visit: impl FnMut(u32, &mut Each<f64>),
     ) {
-        for (number, who) in meeting {
-            let mut within = each(|i| if i < count && who >> i & 1 == 1 { limits[i] } else { -1.0 });
-            if within.iter().all(|limit| *limit < 0.0) {
+        for (number, first) in meeting {
+            let concerned = each(|i| i < count && first[i] <= limits[i]);
+            if !concerned.contains(&true) {
                 continue;
             }
+            let mut within = each(|i| if concerned[i] { limits[i] } else { -1.0 });
             visit(*number, &mut within);
-            for (i, limit) in limits.iter_mut().enumerate().filter(|(i, _)| who >> i & 1 == 1) {
-                *limit = within[i];
-            }
+            *limits = each(|i| if concerned[i] { within[i] } else { limits[i] });
         }
     }
 

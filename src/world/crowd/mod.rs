@@ -16,6 +16,9 @@
 
 mod moving;
 mod node;
+mod together;
+
+pub(super) use together::Meeting;
 
 use super::RestFrame;
 use crate::spacetime::{Event, SightRay};

@@ -19,7 +19,7 @@ pub(super) const NOBODY: u32 = u32::MAX;
 
 /// Boxes are this part of the coordinates they are compared with wider, and slopes this part of the light's: more than the rounding of
 /// either and of what is done with them.
-const ROUNDING: f32 = 16.0 * f32::EPSILON;
+pub(super) const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 /// From farther away, in units of the crowd, nothing of it can be told apart.
 const FARTHEST: f64 = 1e6;
@@ -45,16 +45,19 @@ impl Units {
     }
 }
 
-/// A ray in these units; s counts them too.
+/// A ray in these units, or the least and the greatest that rays which go together have; s counts the units, too.
+#[derive(Clone, Copy)]
 pub(super) struct Asked {
-    start: [f32; 3],
-    moment: f32,
+    pub(super) start: [[f32; 3]; 2],
+    pub(super) moment: [f32; 2],
     // What it moves by, as its time goes by 1.
-    step: [f32; 3],
+    pub(super) step: [[f32; 3]; 2],
     // More than what rounding adds to a distance.
-    pad: f32,
+    pub(super) pad: f32,
     pub(super) s_max: f32,
-    length: f64,
+    // One of the ray's own s.
+    pub(super) length: f64,
+    alone: bool,
 }
 
 impl Asked {
@@ -70,13 +73,15 @@ impl Asked {
         if !(own < FARTHEST && exact < 1.0 && length > 0.0 && length < f64::INFINITY) {
             return None;
         }
+        let step = (ray.k.x / ray.k.t).as_vec3().to_array();
         let mut asked = Self {
-            start: start.as_vec3().to_array(),
-            moment: moment as f32,
-            step: (ray.k.x / ray.k.t).as_vec3().to_array(),
+            start: [start.as_vec3().to_array(); 2],
+            moment: [moment as f32; 2],
+            step: [step; 2],
             pad: ROUNDING * (own as f32 + 2.0) + exact as f32,
             s_max: f32::MAX,
             length,
+            alone: true,
         };
         asked.limit(s_max);
         Some(asked)
@@ -85,6 +90,21 @@ impl Asked {
     #[inline]
     pub(super) fn limit(&mut self, s_max: f64) {
         self.s_max = (s_max * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
+    }
+
+    /// Both of them.
+    pub(super) fn with(&self, other: &Self) -> Self {
+        let least = |a: [f32; 3], b: [f32; 3]| from_fn(|axis| a[axis].min(b[axis]));
+        let most = |a: [f32; 3], b: [f32; 3]| from_fn(|axis| a[axis].max(b[axis]));
+        Self {
+            start: [least(self.start[0], other.start[0]), most(self.start[1], other.start[1])],
+            moment: [self.moment[0].min(other.moment[0]), self.moment[1].max(other.moment[1])],
+            step: [least(self.step[0], other.step[0]), most(self.step[1], other.step[1])],
+            pad: self.pad.max(other.pad),
+            s_max: self.s_max.max(other.s_max),
+            length: self.length,
+            alone: false,
+        }
     }
 }
 
@@ -139,28 +159,42 @@ impl Node {
         self.rigid &= moving.v_lo == moving.v_hi;
     }
 
-    /// Where a ray may enter each box, and the bits of those that it may enter before the limit.
+    /// Where a ray may enter each box, and the bits of those that it may enter before the limit; of rays that go together where the
+    /// first of them may.
     #[inline]
     pub(super) fn entries(&self, ray: &Asked) -> ([f32; 8], u32) {
+        let stretch = |v_lo, v_hi, within| with_best(Stretch { node: self, ray, v_lo, v_hi, within });
         if self.rigid {
-            let (near, met) = with_best(Rigid { node: self, ray });
+            let (near, met) = if ray.alone {
+                with_best(Rigid { node: self, ray })
+            } else {
+                stretch(&self.v_lo, &self.v_hi, (&[0.0; 8], &[ray.s_max; 8]))
+            };
             return (near, met & self.there);
         }
-        // The ray goes back in time: Δ = ahead - s.
-        let ahead: [f32; 8] = from_fn(|i| ray.moment - self.moment[i]);
-        let turn: [f32; 8] = from_fn(|i| ahead[i].max(0.0).min(ray.s_max));
-        let stretch = |v_lo, v_hi, within| with_best(Stretch { node: self, ray, v_lo, v_hi, within });
-        let (late, met_late) = stretch(&self.v_lo, &self.v_hi, (&[0.0; 8], &turn));
-        let (early, met_early) = stretch(&self.v_hi, &self.v_lo, (&turn, &[ray.s_max; 8]));
+        // Rays go back in time: Δ = ahead - s.
+        let turn = |side: usize| -> [f32; 8] {
+            from_fn(|i| (ray.moment[side] - self.moment[i]).max(0.0).min(ray.s_max))
+        };
+        let (first, last) = (turn(0), turn(1));
+        let (late, met_late) = stretch(&self.v_lo, &self.v_hi, (&[0.0; 8], &last));
+        let (early, met_early) = stretch(&self.v_hi, &self.v_lo, (&first, &[ray.s_max; 8]));
+        let if_met = |near: f32, met: u32, i: usize| if met >> i & 1 == 1 { near } else { f32::INFINITY };
         (
-            from_fn(|i| if met_late >> i & 1 == 1 { late[i] } else { early[i] }),
+            from_fn(|i| if_met(late[i], met_late, i).min(if_met(early[i], met_early, i))),
             (met_late | met_early) & self.there,
         )
+    }
+
+    /// One of the boxes, of something that has one velocity.
+    pub(super) fn resting(&self, lane: usize) -> Resting {
+        let of = |all: &[[f32; 8]; 3]| all.map(|axis| axis[lane]);
+        Resting { moment: self.moment[lane], lo: of(&self.lo), hi: of(&self.hi), v: of(&self.v_lo) }
     }
 }
 
 /// Part of a ray, for each box: the first s at which it is within the faces, which move with these velocities, and the bits
-/// of those boxes in which it is at all.
+/// of those boxes in which it is at all. (Of rays that go together none is nearer to a face, or comes nearer faster, than is said.)
 struct Stretch<'a> {
     node: &'a Node,
     ray: &'a Asked,
@@ -175,17 +209,20 @@ impl Task for Stretch<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Self::Output {
         let Self { node, ray, .. } = self;
-        let ahead: [f32; 8] = from_fn(|i| ray.moment - node.moment[i]);
-        let pad: [f32; 8] = from_fn(|i| ray.pad + ROUNDING * ahead[i].abs());
+        let a: [f32; 8] = from_fn(|i| ray.moment[0] - node.moment[i]);
+        let b: [f32; 8] = from_fn(|i| ray.moment[1] - node.moment[i]);
+        let pad: [f32; 8] = from_fn(|i| ray.pad + ROUNDING * a[i].abs().max(b[i].abs()));
         let mut within = (*self.within.0, *self.within.1);
         for axis in 0..3 {
-            let (x, k) = (ray.start[axis], ray.step[axis]);
+            let (start, step) = (ray.start.map(|x| x[axis]), ray.step.map(|k| k[axis]));
             let (lo, hi) = (&node.lo[axis], &node.hi[axis]);
             let (v_lo, v_hi) = (&self.v_lo[axis], &self.v_hi[axis]);
-            let room: [f32; 8] = from_fn(|i| x - lo[i] - v_lo[i] * ahead[i] + pad[i]);
-            within = beyond(within, &room, &from_fn(|i| k - v_lo[i] - ROUNDING));
-            let room: [f32; 8] = from_fn(|i| hi[i] + v_hi[i] * ahead[i] - x + pad[i]);
-            within = beyond(within, &room, &from_fn(|i| v_hi[i] - k - ROUNDING));
+            let moved: [f32; 8] = from_fn(|i| (v_lo[i] * a[i]).min(v_lo[i] * b[i]));
+            let room: [f32; 8] = from_fn(|i| start[1] - lo[i] - moved[i] + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| step[0] - v_lo[i] - ROUNDING));
+            let moved: [f32; 8] = from_fn(|i| (v_hi[i] * a[i]).max(v_hi[i] * b[i]));
+            let room: [f32; 8] = from_fn(|i| hi[i] + moved[i] - start[0] + pad[i]);
+            within = beyond(within, &room, &from_fn(|i| v_hi[i] - step[1] - ROUNDING));
         }
         let (first, last) = within;
         let last = last.map(|last| last * (1.0 + ROUNDING));
@@ -193,14 +230,33 @@ impl Task for Stretch<'_> {
     }
 }
 
-/// The same for all of a ray, where what is in each box has one velocity: the box rests, and the ray goes by.
+/// The same for all of one ray, where what is in each box has one velocity: the box rests, and the ray goes by.
 struct Rigid<'a> {
     node: &'a Node,
     ray: &'a Asked,
 }
 
+/// A box of one velocity.
+pub(super) struct Resting {
+    pub(super) moment: f32,
+    pub(super) lo: [f32; 3],
+    pub(super) hi: [f32; 3],
+    pub(super) v: [f32; 3],
+}
+
 /// No slope is less, so that nothing is infinite. (Below `ROUNDING` nothing is said by an axis.)
 const FLATTEST: f32 = 1e-12;
+
+/// Where a line is between two faces that rest, from `place` with `slope`: the first s, and the last.
+#[inline(always)]
+pub(super) fn between(place: f32, slope: f32, (lo, hi): (f32, f32), pad: f32) -> (f32, f32) {
+    let per_slope = 1.0 / if slope.abs() > FLATTEST { slope } else { FLATTEST };
+    let one = (place - hi - pad) * per_slope;
+    let other = (place - lo + pad) * per_slope;
+    let slack = ROUNDING * (1.0 + per_slope.abs());
+    let (enter, leave) = if one < other { (one, other) } else { (other, one) };
+    (enter - enter.abs() * slack, leave + leave.abs() * slack)
+}
 
 impl Task for Rigid<'_> {
     type Output = ([f32; 8], u32);
@@ -208,30 +264,17 @@ impl Task for Rigid<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Self::Output {
         let Self { node, ray } = self;
-        let ahead: [f32; 8] = from_fn(|i| ray.moment - node.moment[i]);
+        let ahead: [f32; 8] = from_fn(|i| ray.moment[0] - node.moment[i]);
         let pad: [f32; 8] = from_fn(|i| ray.pad + ROUNDING * ahead[i].abs());
         let (mut first, mut last) = ([0.0_f32; 8], [ray.s_max; 8]);
         for axis in 0..3 {
-            let (x, k) = (ray.start[axis], ray.step[axis]);
+            let (x, k) = (ray.start[0][axis], ray.step[0][axis]);
             let (lo, hi, v) = (&node.lo[axis], &node.hi[axis], &node.v_lo[axis]);
-            let per_slope: [f32; 8] = from_fn(|i| {
-                let slope = k - v[i];
-                1.0 / if slope.abs() > FLATTEST { slope } else { FLATTEST }
-            });
-            let place: [f32; 8] = from_fn(|i| x - v[i] * ahead[i]);
-            let one: [f32; 8] = from_fn(|i| (place[i] - hi[i] - pad[i]) * per_slope[i]);
-            let other: [f32; 8] = from_fn(|i| (place[i] - lo[i] + pad[i]) * per_slope[i]);
-            let slack: [f32; 8] = from_fn(|i| ROUNDING * (1.0 + per_slope[i].abs()));
-            first = from_fn(|i| {
-                let enter = if one[i] < other[i] { one[i] } else { other[i] };
-                let enter = enter - enter.abs() * slack[i];
-                if enter > first[i] { enter } else { first[i] }
-            });
-            last = from_fn(|i| {
-                let leave = if one[i] < other[i] { other[i] } else { one[i] };
-                let leave = leave + leave.abs() * slack[i];
-                if leave < last[i] { leave } else { last[i] }
-            });
+            for i in 0..8 {
+                let (enter, leave) = between(x - v[i] * ahead[i], k - v[i], (lo[i], hi[i]), pad[i]);
+                first[i] = if enter > first[i] { enter } else { first[i] };
+                last[i] = if leave < last[i] { leave } else { last[i] };
+            }
         }
         (first, lanes.at_most_8(first, last))
     }
