@@ -9,6 +9,16 @@
     reason = "what is not inlined is not compiled for the instruction set that was chosen"
 )]
 
+/// The whole number below a place, and how far beyond it, for places from 0 to 2³²: at a whole number it may be the end of the one
+/// below. (No conversion to an integer, so that many places are found at once.)
+#[inline(always)]
+pub(crate) fn whole_and_part(place: f64) -> (usize, f64) {
+    // From here on numbers are whole.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    let whole = (place - 0.5).max(0.0) + WHOLE;
+    (whole.to_bits() as u32 as usize, place - (whole - WHOLE))
+}
+
 /// An instruction set.
 pub(crate) trait Lanes: Copy {
     /// Bit i is set where `a[i] <= b[i]`.

@@ -123,7 +123,9 @@ impl<'a, const N: usize> Exposing<'a, N> {
             let mut of: SmallVec<[usize; MANY]> = SmallVec::new();
             for (number, place) in places.iter().enumerate() {
                 sums.push(([0.0; N], DVec3::ZERO));
-                rays.extend(self.sights(*place));
+                for sight in self.sights(*place) {
+                    rays.push(sight); // `extend` is not inlined.
+                }
                 of.resize(rays.len(), number);
             }
             lit.seen_many(&rays, &self.wavelengths, |i, light| add(&mut sums[of[i]], &light));

@@ -6,8 +6,9 @@
 )]
 
 use super::blackbody::planck_with_slope;
-use super::table::{add, between_rows, rows};
+use super::table::{add, rows};
 use super::{Reflectance, planck};
+use crate::simd::whole_and_part;
 use std::sync::LazyLock;
 
 /// CIE standard illuminant D65, 100 at 560 nm.
@@ -52,7 +53,7 @@ const KELVIN: f64 = 6504.0;
 fn piece(nm: f64) -> (usize, f64) {
     let of = |even: Even| (nm - even.nm) * (1.0 / even.step) + even.row;
     let beyond = if nm < TABLE.nm { of(ULTRAVIOLET) } else { of(INFRARED) };
-    between_rows::<ROWS>(if (TABLE.nm..=INFRARED.nm).contains(&nm) { of(TABLE) } else { beyond })
+    whole_and_part(if (TABLE.nm..=INFRARED.nm).contains(&nm) { of(TABLE) } else { beyond })
 }
 
 /// Where a piece begins and how long it is, nm.
@@ -71,7 +72,7 @@ fn all_in_pieces<const N: usize>(nm: &[f64; N]) -> bool {
 #[inline(always)]
 fn at_piece(pieces: &[[f64; 4]; ROWS], nm: f64) -> f64 {
     let (row, part) = piece(nm);
-    let [a, b, c, d] = pieces[row];
+    let [a, b, c, d] = pieces[row % ROWS];
     a + part * (b + part * (c + part * d))
 }
 

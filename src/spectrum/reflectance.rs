@@ -1,7 +1,8 @@
 //! Reflectances: what part of the light a surface throws back, at any wavelength.
 
-use super::table::{add, between_rows};
+use super::table::add;
 use super::{Table, rows};
+use crate::simd::whole_and_part;
 use std::sync::LazyLock;
 
 /// The part of the light thrown back, by wavelength in the surface's own rest frame.
@@ -150,8 +151,8 @@ fn extended(rgb: [f64; 3], beyond: Beyond, wavelength_nm: f64) -> f64 {
 #[expect(clippy::inline_always, reason = "the inside of the loop over wavelengths")]
 fn rgb_at(primaries: &Primaries, rgb: [f64; 3], wavelength_nm: f64) -> f64 {
     let place = ((wavelength_nm - FIRST_NM) * (1.0 / STEP_NM)).clamp(0.0, LAST_ROW);
-    let (row, part) = between_rows::<ROWS>(place);
-    let (start, step) = &primaries.0[row];
+    let (row, part) = whole_and_part(place);
+    let (start, step) = &primaries.0[row % ROWS];
     let curve = |j: usize| start[j] + part * step[j];
     rgb[0] * curve(0) + rgb[1] * curve(1) + rgb[2] * curve(2)
 }

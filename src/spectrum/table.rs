@@ -86,17 +86,6 @@ pub fn rows<const N: usize>(text: &str) -> Vec<[f64; N]> {
     text.lines().filter(|line| !line.is_empty()).map(row).collect()
 }
 
-/// The row below a place, and how far beyond it, for places that are not negative: at a row it may be the end of the one below. The
-/// number of rows is a power of two.
-/// (No conversion to an integer, so that many places are found at once.)
-#[inline(always)]
-pub(super) fn between_rows<const ROWS: usize>(place: f64) -> (usize, f64) {
-    // From here on numbers are whole.
-    const WHOLE: f64 = 4_503_599_627_370_496.0;
-    let row = (place - 0.5).max(0.0) + WHOLE;
-    (row.to_bits() as usize % ROWS, place - (row - WHOLE))
-}
-
 /// Adds a spectrum, so many times, in vectors.
 #[inline]
 pub(super) fn add<const N: usize>(

@@ -2,6 +2,7 @@
 
 use super::pyramid::{Pyramid, Stored, divided, linear, multiplied, square};
 use super::{Encoding, Filter, SRGB_BYTES, Texels, Texture, Wrap, floor, mix, srgb_byte};
+use crate::simd::whole_and_part;
 use glam::{DVec2, Vec4};
 
 /// The ellipse of a surface that a sample stands for, in the mesh's texture coordinates: two conjugate half
@@ -181,10 +182,8 @@ impl Texture {
         if (middle - ends).cmpge(DVec2::ZERO).all() && (middle + ends).cmplt(sizes - 1.0).all() {
             let within = |i: f64| {
                 let at = middle + along * i;
-                let (column, row) = (at.x as i32, at.y as i32);
-                let right = (at.x - f64::from(column)) as f32;
-                let down = (at.y - f64::from(row)) as f32;
-                let [column, row] = [column as usize, row as usize];
+                let ((column, right), (row, down)) = (whole_and_part(at.x), whole_and_part(at.y));
+                let (right, down) = (right as f32, down as f32);
                 let along = |row| mix(texel(column, row), texel(column + 1, row), right);
                 mix(along(row), along(row + 1), down)
             };

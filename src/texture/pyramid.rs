@@ -46,14 +46,20 @@ pub(super) enum Stored {
 /// The value of a stored square root.
 #[inline]
 pub(super) fn square(texel: [u16; 4]) -> Vec4 {
-    let root = Vec4::from(texel.map(f32::from));
+    let root = floats(texel);
     root * root * (1.0 / (65535.0 * 65535.0))
 }
 
 /// The value of a stored word.
 #[inline]
 pub(super) fn linear(texel: [u16; 4]) -> Vec4 {
-    Vec4::from(texel.map(f32::from)) * (1.0 / 65535.0)
+    floats(texel) * (1.0 / 65535.0)
+}
+
+/// (Not by `map`, which becomes a call.)
+#[inline]
+fn floats([r, g, b, a]: [u16; 4]) -> Vec4 {
+    Vec4::new(f32::from(r), f32::from(g), f32::from(b), f32::from(a))
 }
 
 /// Colours multiplied by alpha.

@@ -42,11 +42,10 @@ impl Lit<'_> {
         wavelengths: &Wavelengths<N>,
         mut tell: impl FnMut(usize, Light<N>),
     ) {
-        let sight: Each<SightRay> = rays.iter().map(|(ray, _)| *ray).collect();
-        let found = self.world.nearest_many(&sight, self.crowd.as_ref());
+        let found = self.world.nearest_many(rays.iter().map(|(ray, _)| ray), self.crowd.as_ref());
         let toward; // Outlives what borrows it.
         let mut met: Each<Option<Met<'_>>> = SmallVec::new();
-        for (ray, hit) in sight.iter().zip(found) {
+        for ((ray, _), hit) in rays.iter().zip(found) {
             met.push(hit.map(|hit| Met::new(hit, ray)));
         }
         toward = self.toward_lamps(&met);

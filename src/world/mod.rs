@@ -8,7 +8,6 @@ mod hit;
 mod placed;
 
 pub use crowd::Crowd;
-use crowd::Meeting;
 pub use hit::{Departure, Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
@@ -194,13 +193,16 @@ impl World {
     }
 
     /// The same as [`Self::nearest_from`] for up to 16 rays of no body that go together.
-    pub fn nearest_many(&self, rays: &[SightRay], crowd: Option<&Crowd>) -> [Option<Hit<'_>>; MANY] {
+    pub fn nearest_many<'r>(
+        &self,
+        rays: impl Iterator<Item = &'r SightRay> + Clone,
+        crowd: Option<&Crowd>,
+    ) -> [Option<Hit<'_>>; MANY] {
         let mut nearest = [None; MANY];
         let mut limits = [f64::INFINITY; MANY];
-        let met = self.meeting(rays.iter().map(|ray| (ray, f64::INFINITY)), crowd);
-        Self::ask_many(rays.len(), &met, &mut limits, |number, limits| {
-            let rest = &self.frames[number as usize];
-            let lines = Lines::of(rays.iter().map(|ray| rest.line(ray, None)));
+        let asking = rays.clone().map(|ray| (ray, f64::INFINITY));
+        self.ask_many(asking, crowd, &mut limits, |rest, limits| {
+            let lines = Lines::of(rays.clone().map(|ray| rest.line(ray, None)));
             let mut within = each(|i| limits[i].next_up());
             for (i, found) in rest.nearest_many(&lines, &mut within).into_iter().enumerate() {
                 let Some((placed, met)) = found else { continue };
@@ -214,42 +216,39 @@ impl World {
     /// The same as [`Self::blocked`] for up to 16 rays that go together, each with where it leaves and its limit of s: bit by bit.
     pub fn blocked_many(&self, rays: &[(&SightRay, &Departure<'_>, f64)], crowd: Option<&Crowd>) -> u32 {
         let mut limits = each(|i| rays.get(i).map_or(-1.0, |(.., s_max)| *s_max));
-        let met = self.meeting(rays.iter().map(|(ray, _, s_max)| (*ray, *s_max)), crowd);
-        Self::ask_many(rays.len(), &met, &mut limits, |number, limits| {
-            let rest = &self.frames[number as usize];
+        let asking = rays.iter().map(|(ray, _, s_max)| (*ray, *s_max));
+        self.ask_many(asking, crowd, &mut limits, |rest, limits| {
             let lines = Lines::of(rays.iter().map(|(ray, from, _)| rest.line(ray, Some(from))));
             rest.any_many(&lines, limits);
         });
         (0..rays.len().min(MANY)).filter(|i| limits[*i] < 0.0).fold(0, |bits, i| bits | 1 << i)
     }
 
-    /// The rest frames that any of some rays may meet before its limit of s.
-    fn meeting<'r>(
-        &self,
+    /// Asks the rest frames that any of some rays may meet before its limit of s: `visit` lowers the limits of those rays that it may be
+    /// for; the others have negative ones meanwhile.
+    fn ask_many<'w, 'r>(
+        &'w self,
         rays: impl Iterator<Item = (&'r SightRay, f64)> + Clone,
         crowd: Option<&Crowd>,
-    ) -> Meeting {
-        match crowd {
-            Some(crowd) => crowd.meeting(rays),
-            None => (0..self.frames.len() as u32).map(|number| (number, [0.0; MANY])).collect(),
-        }
-    }
-
-    /// Asks rest frames for those of some rays that may meet them; the others have negative limits meanwhile.
-    fn ask_many(
-        count: usize,
-        meeting: &Meeting,
         limits: &mut Each<f64>,
-        mut visit: impl FnMut(u32, &mut Each<f64>),
+        mut visit: impl FnMut(&'w RestFrame, &mut Each<f64>),
     ) {
-        for (number, first) in meeting {
-            let concerned = each(|i| i < count && first[i] <= limits[i]);
-            if !concerned.contains(&true) {
-                continue;
+        let Some(crowd) = crowd else {
+            for rest in &self.frames {
+                visit(rest, limits);
+                if limits.iter().all(|limit| *limit < 0.0) {
+                    break;
+                }
             }
-            let mut within = each(|i| if concerned[i] { limits[i] } else { -1.0 });
-            visit(*number, &mut within);
-            *limits = each(|i| if concerned[i] { within[i] } else { limits[i] });
+            return;
+        };
+        for (number, first) in crowd.meeting(rays) {
+            let concerned = each(|i| first[i] <= limits[i]);
+            if concerned.contains(&true) {
+                let mut within = each(|i| if concerned[i] { limits[i] } else { -1.0 });
+                visit(&self.frames[number as usize], &mut within);
+                *limits = each(|i| if concerned[i] { within[i] } else { limits[i] });
+            }
         }
     }
 

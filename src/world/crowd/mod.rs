@@ -18,8 +18,6 @@ mod moving;
 mod node;
 mod together;
 
-pub(super) use together::Meeting;
-
 use super::RestFrame;
 use crate::spacetime::{Event, SightRay};
 use crate::tree::{Bounds, Open};

@@ -16,15 +16,16 @@ use crate::tree::{Each, MANY, each};
 use smallvec::SmallVec;
 
 /// Rest frames by number, and for each of some rays at which s it may meet it first: infinite if it cannot.
-pub(in crate::world) type Meeting = SmallVec<[(u32, Each<f64>); 4]>;
+type Meeting = SmallVec<[(u32, Each<f64>); 4]>;
 
 impl Crowd {
     /// The rest frames that any of up to 16 rays may meet before its limit of s, those that may be met first before others.
     pub(in crate::world) fn meeting<'r>(
         &self,
         rays: impl Iterator<Item = (&'r SightRay, f64)> + Clone,
-    ) -> Meeting {
-        let all = each(|i| if i < rays.clone().count() { 0.0 } else { f64::INFINITY });
+    ) -> impl IntoIterator<Item = (u32, Each<f64>)> {
+        let count = rays.clone().count();
+        let all = each(|i| if i < count { 0.0 } else { f64::INFINITY });
         let mut met: Meeting = self.endless.iter().map(|number| (*number, all)).collect();
         let asked: Option<SmallVec<[Asked; MANY]>> =
             rays.map(|(ray, s_max)| Asked::new(ray, s_max, &self.units)).collect();
