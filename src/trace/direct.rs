@@ -72,17 +72,24 @@ impl Lit<'_> {
             self.add_fill(ambient, &fill, seen, &mut arriving, gathered);
         }
         for (number, lamp) in self.lamps.iter().enumerate() {
-            let known = seen.met.toward.get(number).copied();
-            let Some(toward) = known.unwrap_or_else(|| Toward::new(lamp, seen.met)) else { continue };
+            let own;
+            let toward = match seen.met.toward.get(number) {
+                Some(known) => known,
+                None => {
+                    own = Toward::new(lamp, seen.met);
+                    &own
+                }
+            };
+            let Some(toward) = toward else { continue };
             let Toward { connection, k, .. } = toward;
             // The cosine is the receiver's, in its own rest frame.
             let cosine = -k.x.dot(lobes.normal) / k.t;
             if cosine <= 0.0 || !toward.is_above(&seen.met.spot) {
                 continue;
             }
-            let Some(passage) = self.passage(&toward, &seen.met.departure) else { continue };
+            let Some(passage) = self.passage(toward, &seen.met.departure) else { continue };
             let response = lobes.response(|| (-k.x / k.t, seen.to_eye()));
-            let light = FromLamp { lamp, connection: &connection, omega: k.t, cosine, passage: &passage };
+            let light = FromLamp { lamp, connection, omega: k.t, cosine, passage: &passage };
             self.add_lamp(&light, &response, seen, &mut arriving, gathered);
         }
         let mut radiance = match &lobes.base {

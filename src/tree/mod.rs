@@ -82,7 +82,9 @@ impl Tree {
         if boxes.is_empty() {
             return tree;
         }
-        let (built, groups) = built(&tree.space, boxes.len(), of, BvhBuildParams::medium_build());
+        // What is below a leaf is dear: one box for each.
+        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+        let (built, groups) = built(&tree.space, boxes.len(), of, params);
         tree.adopt(&built, &groups);
         tree
     }
@@ -138,8 +140,8 @@ impl Tree {
         self.space.enter(line, s_max).map_or(s_max, |entered| self.walk_on(entered, s_max, visit))
     }
 
-    /// Calls `visit` with every item whose box one of some lines may meet at 0 < s < its limit. `visit` may lower the limits; a
-    /// negative one ends its line's walk.
+    /// Calls `visit` with every item whose box one of some lines may meet at 0 < s < its limit. `visit` gets the limits of those
+    /// lines and negative ones for the others, and may lower them; a negative one ends its line's walk.
     pub(crate) fn walk_many(
         &self,
         lines: &Lines,
@@ -149,7 +151,7 @@ impl Tree {
         if self.nodes.is_empty() {
             return;
         }
-        let mut packet = Packet::of(&self.space, lines, limits);
+        let mut packet = Packet::new(&self.space, lines, limits);
         if packet.farthest() < 0.0 {
             return;
         }
@@ -168,8 +170,13 @@ impl Tree {
                     _ => {}
                 }
                 let begin = node.first[side] as usize;
-                for &item in &self.items[begin..begin + node.count[side] as usize] {
-                    visit(item, limits);
+                let items = &self.items[begin..begin + node.count[side] as usize];
+                let met =
+                    if items.is_empty() { 0 } else { packet.all_entering(node.lo[side], node.hi[side]) };
+                for &item in items.iter().filter(|_| met != 0) {
+                    let mut within = each(|i| if met >> i & 1 == 1 { limits[i] } else { -1.0 });
+                    visit(item, &mut within);
+                    *limits = each(|i| if met >> i & 1 == 1 { within[i] } else { limits[i] });
                     packet.limit_all(limits);
                 }
             }

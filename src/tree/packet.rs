@@ -242,6 +242,11 @@ impl Packet {
         packet
     }
 
+    /// The same, with the best instruction set.
+    pub(super) fn new(space: &Space, lines: &Lines, limits: &Each<f64>) -> Self {
+        with_best(Beginning { space, lines, limits })
+    }
+
     /// One of the lines.
     #[inline(always)]
     fn entered(&self, i: usize) -> Entered {
@@ -286,6 +291,11 @@ impl Packet {
         });
         let half = |of: &Each<f32>, first: usize| -> [f32; 8] { from_fn(|i| of[first + i]) };
         lanes.at_most_8(half(&near, 0), half(&far, 0)) | lanes.at_most_8(half(&near, 8), half(&far, 8)) << 8
+    }
+
+    /// The same, with the best instruction set.
+    pub(super) fn all_entering(&self, lo: Vec3, hi: Vec3) -> u32 {
+        with_best(AllEntering { packet: self, sides: [lo, hi] })
     }
 
     /// The lines that have not come to their end, bit by bit.
@@ -364,6 +374,37 @@ impl Packet {
 
     pub(super) fn farthest(&self) -> f32 {
         self.farthest
+    }
+}
+
+/// Lines to be brought into a tree.
+struct Beginning<'a> {
+    space: &'a Space,
+    lines: &'a Lines,
+    limits: &'a Each<f64>,
+}
+
+impl Task for Beginning<'_> {
+    type Output = Packet;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) -> Packet {
+        Packet::of(self.space, self.lines, self.limits)
+    }
+}
+
+/// A box to be asked for all lines.
+struct AllEntering<'a> {
+    packet: &'a Packet,
+    sides: [Vec3; 2],
+}
+
+impl Task for AllEntering<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u32 {
+        self.packet.entering(lanes, |axis, side| self.sides[side][axis])
     }
 }
 

@@ -156,7 +156,8 @@ impl Placed {
                 meeting.iter().for_each(|meeting| tell(i, Met::Triangle(*meeting)));
             }
         } else {
-            for (i, limit) in limits.iter().enumerate().take(lines.count()) {
+            for (i, limit) in limits.iter().enumerate().take(lines.count()).filter(|(_, limit)| **limit > 0.0)
+            {
                 self.nearest(&lines.line(i), *limit).into_iter().for_each(|met| tell(i, met));
             }
         }
