@@ -25,6 +25,14 @@ pub(crate) fn each<T: Copy + Default>(of: impl Fn(usize) -> T) -> Each<T> {
     all
 }
 
+/// Lets `lower` lower the limits of some lines, bit by bit: it sees negative ones for the others, which stay as they are.
+#[inline(always)]
+pub(crate) fn some_of(lines: u32, limits: &mut Each<f64>, lower: impl FnOnce(&mut Each<f64>)) {
+    let mut within = each(|i| if lines >> i & 1 == 1 { limits[i] } else { -1.0 });
+    lower(&mut within);
+    *limits = each(|i| if lines >> i & 1 == 1 { within[i] } else { limits[i] });
+}
+
 /// Lines that go together, coordinate by coordinate.
 #[derive(Debug, Clone)]
 pub struct Lines {

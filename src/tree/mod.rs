@@ -13,7 +13,7 @@ mod space;
 mod wide;
 
 use glam::Vec3;
-pub(crate) use lines::{Each, each};
+pub(crate) use lines::{Each, each, some_of};
 pub use lines::{Lines, MANY};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -172,9 +172,7 @@ impl Tree {
                 let met =
                     if items.is_empty() { 0 } else { packet.all_entering(node.lo[side], node.hi[side]) };
                 for &item in items.iter().filter(|_| met != 0) {
-                    let mut within = each(|i| if met >> i & 1 == 1 { limits[i] } else { -1.0 });
-                    visit(item, &mut within);
-                    *limits = each(|i| if met >> i & 1 == 1 { within[i] } else { limits[i] });
+                    some_of(met, limits, |limits| visit(item, limits));
                     packet.limit_all(limits);
                 }
             }

@@ -13,7 +13,7 @@ use placed::Met;
 pub use placed::{Form, Placed};
 
 use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
-use crate::tree::{Bounds, Each, Line, Lines, MANY, Tree, each};
+use crate::tree::{Bounds, Each, Line, Lines, MANY, Tree, each, some_of};
 
 /// So many are asked one by one.
 const FEW: usize = 3;
@@ -195,7 +195,7 @@ impl World {
     /// The same as [`Self::nearest_from`] for up to 16 rays of no body that go together.
     pub fn nearest_many<'r>(
         &self,
-        rays: impl Iterator<Item = &'r SightRay> + Clone,
+        rays: &(impl Iterator<Item = &'r SightRay> + Clone),
         crowd: Option<&Crowd>,
     ) -> [Option<Hit<'_>>; MANY] {
         let mut nearest = [None; MANY];
@@ -243,11 +243,9 @@ impl World {
             return;
         };
         for (number, first) in crowd.meeting(rays) {
-            let concerned = each(|i| first[i] <= limits[i]);
-            if concerned.contains(&true) {
-                let mut within = each(|i| if concerned[i] { limits[i] } else { -1.0 });
-                visit(&self.frames[number as usize], &mut within);
-                *limits = each(|i| if concerned[i] { within[i] } else { limits[i] });
+            let concerned = (0..MANY).fold(0, |bits, i| bits | u32::from(first[i] <= limits[i]) << i);
+            if concerned != 0 {
+                some_of(concerned, limits, |limits| visit(&self.frames[number as usize], limits));
             }
         }
     }
