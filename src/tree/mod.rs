@@ -82,7 +82,9 @@ impl Tree {
         if boxes.is_empty() {
             return tree;
         }
-        let (built, groups) = built(&tree.space, boxes.len(), of, BvhBuildParams::medium_build());
+        // What is below a leaf is dear: one box for each.
+        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+        let (built, groups) = built(&tree.space, boxes.len(), of, params);
         tree.adopt(&built, &groups);
         tree
     }

@@ -13,6 +13,8 @@ const PAD: f32 = 1e-6;
 pub(super) const SLACK: f32 = 1.000_001;
 
 /// The points `origin + s step`, s > 0.
+///
+/// From more than 1e9 sizes of a tree away the rounding of its start passes over what is in the tree, which it may then miss.
 #[derive(Debug, Clone, Copy)]
 pub struct Line {
     /// Where s is zero.
