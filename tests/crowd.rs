@@ -40,8 +40,8 @@ fn same_together(scene: &Scene, rays: &[SightRay], s_max: f64, crowd: Option<&Cr
     };
     let from: Vec<Departure<'_>> = rays.iter().map(away).collect();
     let leaving: Vec<_> = rays.iter().zip(&from).map(|(ray, from)| (ray, from, s_max)).collect();
-    let blocked = world.blocked_many(&leaving, crowd);
-    for (i, hit) in world.nearest_many(&rays.iter(), crowd).into_iter().enumerate() {
+    let blocked = world.blocked_many(leaving, crowd);
+    for (i, hit) in world.nearest_many(rays, crowd).into_iter().enumerate() {
         let Some(ray) = rays.get(i) else {
             assert!(hit.is_none() && blocked >> i & 1 == 0);
             continue;

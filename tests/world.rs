@@ -111,7 +111,7 @@ fn first_body_is_seen_of_those_at_one_place() {
             let rays: Vec<SightRay> =
                 (0..16).map(|_| light_from(v(dice.part() - 0.5, dice.part() - 0.5, 0.0), eye)).collect();
             let crowd = scene.world.crowd(eye);
-            let together = scene.world.nearest_many(&rays.iter(), crowd.as_ref());
+            let together = scene.world.nearest_many(&rays, crowd.as_ref());
             for (ray, together) in rays.iter().zip(together) {
                 let alone = scene.world.nearest_from(ray, None, crowd.as_ref()).unwrap();
                 let together = together.unwrap();

@@ -40,6 +40,12 @@ impl<To: Frame, From: Frame> Boost<To, From> {
         Velocity::from_proper(self.u)
     }
 
+    /// The proper velocity and the Lorentz factor of `To` in `From`.
+    #[inline]
+    pub(crate) fn proper_and_gamma(self) -> (DVec3, f64) {
+        (self.u, self.gamma)
+    }
+
     /// Whether the plain formulas lose digits of light.
     #[inline]
     pub(crate) fn is_fast(self) -> bool {

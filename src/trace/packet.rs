@@ -42,7 +42,7 @@ impl Lit<'_> {
         wavelengths: &Wavelengths<N>,
         mut tell: impl FnMut(usize, Light<N>),
     ) {
-        let found = self.world.nearest_many(&rays.iter().map(|(ray, _)| ray), self.crowd.as_ref());
+        let found = self.world.nearest_many(rays.iter().map(|(ray, _)| ray), self.crowd.as_ref());
         let toward; // Outlives what borrows it.
         let mut met: Each<Option<Met<'_>>> = SmallVec::new();
         for ((ray, _), hit) in rays.iter().zip(found) {
@@ -89,8 +89,7 @@ impl Lit<'_> {
             if rays.is_empty() {
                 continue;
             }
-            let blocked = self.world.blocked_many(&rays, self.crowd.as_ref());
-            drop(rays);
+            let blocked = self.world.blocked_many(rays, self.crowd.as_ref());
             for (bit, i) in which.into_iter().enumerate() {
                 if let Some(toward) = &mut toward[i] {
                     toward.blocked = Some(blocked >> bit & 1 == 1);

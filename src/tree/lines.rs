@@ -8,6 +8,7 @@
 use super::Line;
 use crate::simd::{Lanes, Task, with_best};
 use glam::{DAffine3, DVec3};
+use std::array::from_fn;
 
 /// So many lines go together at most.
 pub const MANY: usize = 16;
@@ -25,6 +26,24 @@ pub(crate) fn each<T: Copy + Default>(of: impl Fn(usize) -> T) -> Each<T> {
     all
 }
 
+/// The least of all. (By halves, so that it need not go one by one.)
+#[inline(always)]
+pub(crate) fn least(of: &Each<f32>) -> f32 {
+    let mut some: [f32; 8] = from_fn(|i| if of[i] < of[i + 8] { of[i] } else { of[i + 8] });
+    for half in [4, 2, 1] {
+        for i in 0..half {
+            some[i] = if some[i] < some[i + half] { some[i] } else { some[i + half] };
+        }
+    }
+    some[0]
+}
+
+/// The greatest of all.
+#[inline(always)]
+pub(crate) fn greatest(of: &Each<f32>) -> f32 {
+    -least(&each(|i| -of[i]))
+}
+
 /// Lets `lower` lower the limits of some lines, bit by bit: it sees negative ones for the others, which stay as they are.
 #[inline(always)]
 pub(crate) fn some_of(lines: u32, limits: &mut Each<f64>, lower: impl FnOnce(&mut Each<f64>)) {
@@ -36,9 +55,10 @@ pub(crate) fn some_of(lines: u32, limits: &mut Each<f64>, lower: impl FnOnce(&mu
 /// Lines that go together, coordinate by coordinate.
 #[derive(Debug, Clone)]
 pub struct Lines {
-    origin: [Each<f64>; 3],
-    step: [Each<f64>; 3],
-    count: usize,
+    // Where s is zero, and what one unit of s moves, by axis.
+    pub(crate) origin: [Each<f64>; 3],
+    pub(crate) step: [Each<f64>; 3],
+    pub(crate) count: usize,
 }
 
 impl Lines {
@@ -55,21 +75,12 @@ impl Lines {
         all
     }
 
-    /// How many.
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Where s is zero, by axis.
-    #[inline(always)]
-    pub(super) fn origin(&self) -> &[Each<f64>; 3] {
-        &self.origin
-    }
-
-    /// What one unit of s moves, by axis.
-    #[inline(always)]
-    pub(super) fn step(&self) -> &[Each<f64>; 3] {
-        &self.step
+    /// Lets one of them begin somewhere.
+    #[inline]
+    pub(crate) fn begin(&mut self, i: usize, origin: DVec3) {
+        for axis in 0..3 {
+            self.origin[axis][i] = origin[axis];
+        }
     }
 
     /// One of them.
@@ -141,8 +152,7 @@ mod tests {
         };
         for number in 0..100 {
             let line = |i: usize| Line { origin: place(number + 7 * i) * 1e3, step: place(number + 11 * i) };
-            let map =
-                DAffine3::from_cols_array(&std::array::from_fn(|i| spread(i + number, 0.445_041_867_913)));
+            let map = DAffine3::from_cols_array(&from_fn(|i| spread(i + number, 0.445_041_867_913)));
             let lines = Lines::of((0..MANY).map(line));
             let plain = Through { lines: &lines, map: &map }.run(Plain);
             let best = lines.through(&map);

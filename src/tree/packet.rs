@@ -11,7 +11,7 @@
 )]
 
 use super::Wide;
-use super::lines::{Each, Lines, MANY, each};
+use super::lines::{Each, Lines, MANY, each, least};
 use super::open::Open;
 use super::space::{Entered, SLACK, Space};
 use super::wide::{LEAF, Node, Visit, blocks_of, walk_on};
@@ -31,30 +31,22 @@ fn axes<T>(of: impl Fn(usize) -> T) -> [T; 3] {
 
 /// The least of those that have some way to go.
 #[inline(always)]
-fn least(of: &Each<f32>, t_max: &Each<f32>) -> f32 {
-    let going = each(|i| if t_max[i] >= 0.0 { of[i] } else { f32::INFINITY });
-    // By halves, so that it need not go one by one.
-    let mut some: [f32; 8] = from_fn(|i| if going[i] < going[i + 8] { going[i] } else { going[i + 8] });
-    for half in [4, 2, 1] {
-        for i in 0..half {
-            some[i] = if some[i] < some[i + half] { some[i] } else { some[i + half] };
-        }
-    }
-    some[0]
+fn least_going(of: &Each<f32>, t_max: &Each<f32>) -> f32 {
+    least(&each(|i| if t_max[i] >= 0.0 { of[i] } else { f32::INFINITY }))
 }
 
 /// The greatest of those that have some way to go.
 #[inline(always)]
-fn greatest(of: &Each<f32>, t_max: &Each<f32>) -> f32 {
-    -least(&each(|i| -of[i]), t_max)
+fn greatest_going(of: &Each<f32>, t_max: &Each<f32>) -> f32 {
+    -least_going(&each(|i| -of[i]), t_max)
 }
 
 /// The least and the greatest, by axis.
 #[inline(always)]
 fn range([x, y, z]: &[Each<f32>; 3], t_max: &Each<f32>) -> [[f32; 3]; 2] {
     [
-        [least(x, t_max), least(y, t_max), least(z, t_max)],
-        [greatest(x, t_max), greatest(y, t_max), greatest(z, t_max)],
+        [least_going(x, t_max), least_going(y, t_max), least_going(z, t_max)],
+        [greatest_going(x, t_max), greatest_going(y, t_max), greatest_going(z, t_max)],
     ]
 }
 
@@ -210,7 +202,7 @@ impl Packet {
     #[inline(always)]
     pub(super) fn of(space: &Space, lines: &Lines, limits: &Each<f64>) -> Self {
         const LARGEST: f64 = f32::MAX as f64;
-        let (origin, step) = (lines.origin(), lines.step());
+        let (origin, step) = (&lines.origin, &lines.step);
         let [x, y, z] = step;
         let inverse = [finite_inverse(x), finite_inverse(y), finite_inverse(z)];
         let (mut first, mut last) = ([0.0_f64; MANY], [f64::INFINITY; MANY]);
@@ -235,7 +227,7 @@ impl Packet {
         let goes = each(|i| length[i] > 0.0 && length[i] < f64::INFINITY);
         let starts = each(|i| (start[0][i] + start[1][i] + start[2][i]).is_finite());
         let t_max =
-            each(|i| if (i < lines.count()) & enters[i] & goes[i] & starts[i] { t_max[i] } else { -1.0 });
+            each(|i| if (i < lines.count) & enters[i] & goes[i] & starts[i] { t_max[i] } else { -1.0 });
         let span = Span::of(&start, &inverse, &t_max);
         let mut packet = Self { start, inverse, first, length, limits: *limits, t_max, span, farthest: -1.0 };
         packet.find_farthest();
@@ -262,7 +254,7 @@ impl Packet {
 
     #[inline(always)]
     fn find_farthest(&mut self) {
-        let farthest = greatest(&self.t_max, &self.t_max);
+        let farthest = greatest_going(&self.t_max, &self.t_max);
         self.farthest = if farthest >= 0.0 { farthest } else { -1.0 };
     }
 

@@ -6,11 +6,13 @@
 mod crowd;
 mod hit;
 mod placed;
+mod rays;
 
 pub use crowd::Crowd;
 pub use hit::{Departure, Hit, Spot};
 use placed::Met;
 pub use placed::{Form, Placed};
+use rays::Rays;
 
 use crate::spacetime::{Event, Lab, Poincare, Rest, SightRay};
 use crate::tree::{Bounds, Each, Line, Lines, MANY, Tree, each, some_of};
@@ -195,16 +197,15 @@ impl World {
     /// The same as [`Self::nearest_from`] for up to 16 rays of no body that go together.
     pub fn nearest_many<'r>(
         &self,
-        rays: &(impl Iterator<Item = &'r SightRay> + Clone),
+        rays: impl IntoIterator<Item = &'r SightRay>,
         crowd: Option<&Crowd>,
     ) -> [Option<Hit<'_>>; MANY] {
         let mut nearest = [None; MANY];
         let mut limits = [f64::INFINITY; MANY];
-        let asking = rays.clone().map(|ray| (ray, f64::INFINITY));
-        self.ask_many(asking, crowd, &mut limits, |rest, limits| {
-            let lines = Lines::of(rays.clone().map(|ray| rest.line(ray, None)));
+        let rays = Rays::of(rays.into_iter().map(|ray| (ray, None, f64::INFINITY)));
+        self.ask_many(&rays, crowd, &mut limits, |rest, limits| {
             let mut within = each(|i| limits[i].next_up());
-            for (i, found) in rest.nearest_many(&lines, &mut within).into_iter().enumerate() {
+            for (i, found) in rest.nearest_many(&rays.within(rest), &mut within).into_iter().enumerate() {
                 let Some((placed, met)) = found else { continue };
                 let hit = Hit { s: met.s(), rest, placed: &rest.placed[placed as usize], met };
                 limits[i] = self.nearer(hit, limits[i], &mut nearest[i]);
@@ -214,21 +215,22 @@ impl World {
     }
 
     /// The same as [`Self::blocked`] for up to 16 rays that go together, each with where it leaves and its limit of s: bit by bit.
-    pub fn blocked_many(&self, rays: &[(&SightRay, &Departure<'_>, f64)], crowd: Option<&Crowd>) -> u32 {
-        let mut limits = each(|i| rays.get(i).map_or(-1.0, |(.., s_max)| *s_max));
-        let asking = rays.iter().map(|(ray, _, s_max)| (*ray, *s_max));
-        self.ask_many(asking, crowd, &mut limits, |rest, limits| {
-            let lines = Lines::of(rays.iter().map(|(ray, from, _)| rest.line(ray, Some(from))));
-            rest.any_many(&lines, limits);
-        });
-        (0..rays.len().min(MANY)).filter(|i| limits[*i] < 0.0).fold(0, |bits, i| bits | 1 << i)
+    pub fn blocked_many<'r>(
+        &self,
+        rays: impl IntoIterator<Item = (&'r SightRay, &'r Departure<'r>, f64)>,
+        crowd: Option<&Crowd>,
+    ) -> u32 {
+        let rays = Rays::of(rays.into_iter().map(|(ray, from, s_max)| (ray, Some(from), s_max)));
+        let mut limits = rays.s_max;
+        self.ask_many(&rays, crowd, &mut limits, |rest, limits| rest.any_many(&rays.within(rest), limits));
+        (0..rays.count()).filter(|i| limits[*i] < 0.0).fold(0, |bits, i| bits | 1 << i)
     }
 
     /// Asks the rest frames that any of some rays may meet before its limit of s: `visit` lowers the limits of those rays that it may be
     /// for; the others have negative ones meanwhile.
-    fn ask_many<'w, 'r>(
+    fn ask_many<'w>(
         &'w self,
-        rays: impl Iterator<Item = (&'r SightRay, f64)> + Clone,
+        rays: &Rays<'_>,
         crowd: Option<&Crowd>,
         limits: &mut Each<f64>,
         mut visit: impl FnMut(&'w RestFrame, &mut Each<f64>),
@@ -242,12 +244,12 @@ impl World {
             }
             return;
         };
-        for (number, first) in crowd.meeting(rays) {
+        crowd.meeting(rays, |number, first| {
             let concerned = (0..MANY).fold(0, |bits, i| bits | u32::from(first[i] <= limits[i]) << i);
             if concerned != 0 {
                 some_of(concerned, limits, |limits| visit(&self.frames[number as usize], limits));
             }
-        }
+        });
     }
 
     /// Puts a hit in place of the nearest so far if it comes before; returns the limit of s. (At the same s it is that in the first

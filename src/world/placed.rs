@@ -156,8 +156,7 @@ impl Placed {
                 meeting.iter().for_each(|meeting| tell(i, Met::Triangle(*meeting)));
             }
         } else {
-            for (i, limit) in limits.iter().enumerate().take(lines.count()).filter(|(_, limit)| **limit > 0.0)
-            {
+            for (i, limit) in limits.iter().enumerate().take(lines.count).filter(|(_, limit)| **limit > 0.0) {
                 self.nearest(&lines.line(i), *limit).into_iter().for_each(|met| tell(i, met));
             }
         }
@@ -169,7 +168,7 @@ impl Placed {
             return triangles.any_many(&lines.through(&self.form_from_rest), limits);
         }
         let met = |i: &usize| limits[*i] > 0.0 && self.any(&lines.line(*i), limits[*i]);
-        (0..lines.count()).filter(met).fold(0, |bits, i| bits | 1 << i)
+        (0..lines.count).filter(met).fold(0, |bits, i| bits | 1 << i)
     }
 
     /// All meetings at 0 < s < `s_max`, in no order, until one is enough: whether it was.

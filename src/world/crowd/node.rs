@@ -22,13 +22,13 @@ pub(super) const NOBODY: u32 = u32::MAX;
 pub(super) const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 /// From farther away, in units of the crowd, nothing of it can be told apart.
-const FARTHEST: f64 = 1e6;
+pub(super) const FARTHEST: f64 = 1e6;
 
 /// Those in which a crowd is about as large as 1, with its middle at the origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Units {
-    origin: Event,
-    scale: f64,
+    pub(super) origin: Event,
+    pub(super) scale: f64,
 }
 
 impl Units {
@@ -57,7 +57,7 @@ pub(super) struct Asked {
     pub(super) s_max: f32,
     // One of the ray's own s.
     pub(super) length: f64,
-    alone: bool,
+    pub(super) alone: bool,
 }
 
 impl Asked {
@@ -90,21 +90,6 @@ impl Asked {
     #[inline]
     pub(super) fn limit(&mut self, s_max: f64) {
         self.s_max = (s_max * self.length * 1.000_001).min(f64::from(f32::MAX)) as f32;
-    }
-
-    /// Both of them.
-    pub(super) fn with(&self, other: &Self) -> Self {
-        let least = |a: [f32; 3], b: [f32; 3]| from_fn(|axis| a[axis].min(b[axis]));
-        let most = |a: [f32; 3], b: [f32; 3]| from_fn(|axis| a[axis].max(b[axis]));
-        Self {
-            start: [least(self.start[0], other.start[0]), most(self.start[1], other.start[1])],
-            moment: [self.moment[0].min(other.moment[0]), self.moment[1].max(other.moment[1])],
-            step: [least(self.step[0], other.step[0]), most(self.step[1], other.step[1])],
-            pad: self.pad.max(other.pad),
-            s_max: self.s_max.max(other.s_max),
-            length: self.length,
-            alone: false,
-        }
     }
 }
 

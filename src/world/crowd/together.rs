@@ -8,72 +8,72 @@
     reason = "what is not inlined is not compiled for the instruction set that was chosen"
 )]
 
+use super::super::rays::Rays;
 use super::Crowd;
-use super::node::{Asked, LEAF, ROUNDING, Resting, between};
+use super::moving;
+use super::node::{Asked, FARTHEST, LEAF, ROUNDING, Resting, Units, between};
 use crate::simd::{Lanes, Task, with_best};
-use crate::spacetime::SightRay;
-use crate::tree::{Each, MANY, each};
+use crate::tree::{Each, MANY, each, greatest, least};
 use smallvec::SmallVec;
 
-/// Rest frames by number, and for each of some rays at which s it may meet it first: infinite if it cannot.
-type Meeting = SmallVec<[(u32, Each<f64>); 4]>;
+/// A rest frame's number, and where each of some rays may meet its box first: infinite if it cannot.
+struct Met {
+    number: u32,
+    first: Each<f32>,
+}
 
 impl Crowd {
-    /// The rest frames that any of up to 16 rays may meet before its limit of s, those that may be met first before others.
-    pub(in crate::world) fn meeting<'r>(
-        &self,
-        rays: impl Iterator<Item = (&'r SightRay, f64)> + Clone,
-    ) -> impl IntoIterator<Item = (u32, Each<f64>)> {
-        let count = rays.clone().count();
-        let all = each(|i| if i < count { 0.0 } else { f64::INFINITY });
-        let mut met: Meeting = self.endless.iter().map(|number| (*number, all)).collect();
-        let asked: Option<SmallVec<[Asked; MANY]>> =
-            rays.map(|(ray, s_max)| Asked::new(ray, s_max, &self.units)).collect();
-        match (self.root, asked) {
-            (None, _) => {}
-            (Some(_), None) => met.extend(self.everybody().map(|number| (number, all))),
-            (Some(root), Some(asked)) => self.add_meeting(root, &asked, &mut met),
+    /// Calls `visit` with every rest frame that any of some rays may meet before its limit of s, and at which s each may meet it first
+    /// (infinite if it cannot); those that may be met first before others.
+    pub(in crate::world) fn meeting(&self, rays: &Rays<'_>, mut visit: impl FnMut(u32, &Each<f64>)) {
+        if rays.count() == 0 {
+            return;
         }
-        met
-    }
-
-    fn add_meeting(&self, root: u32, asked: &[Asked], met: &mut Meeting) {
-        let Some(together) = asked.iter().copied().reduce(|all, one| all.with(&one)) else { return };
-        let lanes = Beside::new(asked);
-        let known = met.len();
-        let mut open: SmallVec<[u32; 64]> = SmallVec::new();
+        let all = each(|i| if i < rays.count() { 0.0 } else { f64::INFINITY });
+        self.endless.iter().for_each(|number| visit(*number, &all));
+        let Some(root) = self.root else { return };
+        let Some((beside, together)) = with_best(Beginning { rays, units: &self.units }) else {
+            return self.everybody().for_each(|number| visit(number, &all));
+        };
         // (A tree over one alone is a leaf without a box.)
         if root & LEAF != 0 {
-            met.push((root & !LEAF, each(|i| if i < asked.len() { 0.0 } else { f64::INFINITY })));
-        } else {
-            open.push(root);
+            return visit(root & !LEAF, &all);
         }
+        let met = self.met(root, &beside, &together);
+        let mut order: SmallVec<[(f32, u32, u32); MANY]> = SmallVec::new();
+        order.extend((0..).zip(&met).map(|(place, met)| (least(&met.first), met.number, place)));
+        order.sort_unstable_by(|(a, i, _), (b, j, _)| a.total_cmp(b).then(i.cmp(j)));
+        for (_, number, place) in order {
+            let first = &met[place as usize].first;
+            visit(number, &each(|i| f64::from(first[i]) * beside.per_length[i]));
+        }
+    }
+
+    fn met(&self, root: u32, beside: &Beside, together: &Asked) -> SmallVec<[Met; 8]> {
+        let mut all = SmallVec::new();
+        let mut open: SmallVec<[u32; 64]> = SmallVec::from_slice(&[root]);
         while let Some(at) = open.pop() {
             let node = &self.nodes[at as usize];
-            let (_, entered) = node.entries(&together);
-            for lane in (0..8).filter(|lane| entered >> lane & 1 == 1) {
+            let (_, mut entered) = node.entries(together);
+            while entered != 0 {
+                let lane = entered.trailing_zeros() as usize & 7;
+                entered &= entered - 1;
                 let child = node.child[lane];
                 if child & LEAF == 0 {
                     open.push(child);
                     continue;
                 }
-                let first = with_best(Passing { rays: &lanes, by: &node.resting(lane) });
-                if first.iter().any(|first| *first < f32::INFINITY) {
-                    met.push((child & !LEAF, each(|i| f64::from(first[i]) * lanes.per_length[i])));
+                let first = with_best(Passing { rays: beside, by: &node.resting(lane) });
+                if least(&first) < f32::INFINITY {
+                    all.push(Met { number: child & !LEAF, first });
                 }
             }
         }
-        let soonest = |(number, first): &(u32, Each<f64>)| {
-            (first.iter().copied().fold(f64::INFINITY, f64::min), *number)
-        };
-        met[known..].sort_unstable_by(|a, b| {
-            let ((a, i), (b, j)) = (soonest(a), soonest(b));
-            a.total_cmp(&b).then(i.cmp(&j))
-        });
+        all
     }
 }
 
-/// Rays one beside another.
+/// Rays one beside another, in the units of a crowd: each as [`Asked`] has it.
 struct Beside {
     start: [Each<f32>; 3],
     moment: Each<f32>,
@@ -84,28 +84,66 @@ struct Beside {
     per_length: Each<f64>,
 }
 
-impl Beside {
-    fn new(asked: &[Asked]) -> Self {
-        let mut all = Self {
-            start: [[0.0; MANY]; 3],
-            moment: [0.0; MANY],
-            step: [[0.0; MANY]; 3],
-            pad: [0.0; MANY],
-            s_max: [-1.0; MANY],
-            per_length: [1.0; MANY],
-        };
-        for (i, one) in asked.iter().enumerate().take(MANY) {
-            for axis in 0..3 {
-                all.start[axis][i] = one.start[0][axis];
-                all.step[axis][i] = one.step[0][axis];
-            }
-            all.moment[i] = one.moment[0];
-            all.pad[i] = one.pad;
-            all.s_max[i] = one.s_max;
-            all.per_length[i] = 0.999_999 / one.length;
+/// Rays to be brought into the units of a crowd: one beside another, and the least and the greatest of their numbers. None if one of
+/// them is from too far away.
+struct Beginning<'a> {
+    rays: &'a Rays<'a>,
+    units: &'a Units,
+}
+
+impl Task for Beginning<'_> {
+    type Output = Option<(Beside, Asked)>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) -> Self::Output {
+        let Units { origin, scale } = *self.units;
+        let Rays { t, x: [x, y, z], k_t, k, s_max, .. } = self.rays;
+        let away = |of: &Each<f64>, from: f64| -> Each<f64> { each(|i| (of[i] - from) * scale) };
+        let start = [away(x, origin.x.x), away(y, origin.x.y), away(z, origin.x.z)];
+        let moment = away(t, origin.t);
+        let length: Each<f64> = each(|i| k_t[i] * scale);
+        let own = largest(&start, &moment);
+        let numbers = largest(&[*x, *y, *z], t);
+        let exact: Each<f64> = each(|i| moving::ROUNDING * numbers[i] * scale);
+        let is_near: Each<bool> = each(|i| own[i] < FARTHEST && exact[i] < 1.0);
+        let goes: Each<bool> = each(|i| length[i] > 0.0 && length[i] < f64::INFINITY);
+        if is_near.contains(&false) || goes.contains(&false) {
+            return None;
         }
-        all
+        let step = |k: &Each<f64>| -> Each<f32> { each(|i| (k[i] / k_t[i]) as f32) };
+        let beside = Beside {
+            start: [rounded(&start[0]), rounded(&start[1]), rounded(&start[2])],
+            moment: rounded(&moment),
+            step: [step(&k[0]), step(&k[1]), step(&k[2])],
+            pad: each(|i| ROUNDING * (own[i] as f32 + 2.0) + exact[i] as f32),
+            s_max: each(|i| (s_max[i] * length[i] * 1.000_001).min(f64::from(f32::MAX)) as f32),
+            per_length: each(|i| 0.999_999 / length[i]),
+        };
+        let range = |[x, y, z]: &[Each<f32>; 3]| {
+            [[least(x), least(y), least(z)], [greatest(x), greatest(y), greatest(z)]]
+        };
+        let together = Asked {
+            start: range(&beside.start),
+            moment: [least(&beside.moment), greatest(&beside.moment)],
+            step: range(&beside.step),
+            pad: greatest(&beside.pad),
+            s_max: greatest(&beside.s_max),
+            length: length[0],
+            alone: false,
+        };
+        Some((beside, together))
     }
+}
+
+#[inline(always)]
+fn rounded(of: &Each<f64>) -> Each<f32> {
+    each(|i| of[i] as f32)
+}
+
+/// The largest of three coordinates, and a fourth.
+#[inline(always)]
+fn largest([x, y, z]: &[Each<f64>; 3], t: &Each<f64>) -> Each<f64> {
+    each(|i| x[i].abs().max(y[i].abs().max(z[i].abs())) + t[i].abs())
 }
 
 /// Rays that go by a box of one velocity: where each may enter it, infinite for those that do not.
@@ -142,7 +180,7 @@ mod tests {
     use super::super::node::{Node, Units};
     use super::*;
     use crate::simd::Plain;
-    use crate::spacetime::{Event, FourVector};
+    use crate::spacetime::{Event, FourVector, SightRay};
     use glam::DVec3;
     use std::array::from_fn;
 
@@ -169,18 +207,20 @@ mod tests {
             let count = 1 + number % MANY;
             // From one event, as from a camera, or from several, as to a lamp.
             let wide = [0.0, 0.02, 0.5][number % 3];
-            let asked: Vec<Asked> = (0..count)
+            let rays: Vec<(SightRay, f64)> = (0..count)
                 .map(|i| {
                     let along = (spread(13 * number) + 0.1 * spread(17 * (number + i))).normalize();
                     let own = wide * spread(19 * (number + i));
                     let event = Event::new(1.0 + own.y, spread(23 * number) + own);
-                    let ray = SightRay { event, k: FourVector::new(1.0, along) * (1.0 + i as f64) };
-                    Asked::new(&ray, 0.5 + spread(29 * i).x, &units).unwrap()
+                    let k = FourVector::new(1.0, along) * (1.0 + i as f64);
+                    (SightRay { event, k }, 0.5 + spread(29 * i).x)
                 })
                 .collect();
-            let together = asked.iter().copied().reduce(|all, one| all.with(&one)).unwrap();
+            let asked: Vec<Asked> =
+                rays.iter().map(|(ray, s_max)| Asked::new(ray, *s_max, &units).unwrap()).collect();
+            let all = Rays::of(rays.iter().map(|(ray, s_max)| (ray, None, *s_max)));
+            let (lanes, together) = with_best(Beginning { rays: &all, units: &units }).unwrap();
             let (near, all) = node.entries(&together);
-            let lanes = Beside::new(&asked);
             for (lane, near) in near.into_iter().enumerate() {
                 let by = &node.resting(lane);
                 let first = with_best(Passing { rays: &lanes, by });
