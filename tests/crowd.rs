@@ -36,7 +36,9 @@ fn same_together(scene: &Scene, rays: &[SightRay], s_max: f64, crowd: Option<&Cr
     let away = |ray: &SightRay| {
         // From the ground of some body, as shadow rays start.
         let rest = &world.frames[world.frames.len() / 2];
-        Departure { event: ray.event, rest, at: rest.rest_from_lab * ray.event }
+        // (A little beside, so that it shows who begins there.)
+        let at = rest.rest_from_lab * ray.event;
+        Departure { event: ray.event, rest, at: Event::new(at.t, at.x + v(0.01, 0.02, -0.01)) }
     };
     let from: Vec<Departure<'_>> = rays.iter().map(away).collect();
     let leaving: Vec<_> = rays.iter().zip(&from).map(|(ray, from)| (ray, from, s_max)).collect();
@@ -61,18 +63,50 @@ fn rays_that_go_together_meet_whom_each_meets_by_itself() {
         for number in 0..300 {
             let (n, wide) = (dice.direction(), libm::pow(10.0, dice.between(-4.0, 0.0)));
             let start = dice.in_cube() * f64::from(number % 3);
-            let rays: Vec<SightRay> = (0..=dice.below(16))
+            let mut rays: Vec<SightRay> = (0..=dice.below(16))
                 .map(|_| {
                     let along = (n + dice.in_cube() * wide).normalize();
                     let event = Event::new(0.0, start + dice.in_cube() * wide);
                     SightRay { event, k: FourVector::new(1.0, along) }
                 })
                 .collect();
-            let s_max = dice.between(1.0, 100.0);
+            let mut s_max = dice.between(1.0, 100.0);
+            if number % 5 == 0 {
+                // One is from so far away that the crowd is a point.
+                let away = libm::pow(10.0, dice.between(4.0, 12.0));
+                rays[0].event = rays[0].at(-away);
+                s_max += if number % 2 == 0 { away } else { 0.0 };
+            }
             same_together(&scene, &rays, s_max, crowd.as_ref());
             same_together(&scene, &rays, s_max, None);
         }
     }
+}
+
+#[test]
+fn rays_that_go_together_meet_one_body_among_many_without_end() {
+    let mut dice = Dice(74);
+    let walls = (0..8).map(|_| {
+        let normal = dice.direction();
+        Body::of(plane(-30.0 * normal, normal), black()).moving(dice.velocity(0.5))
+    });
+    let walls: Vec<Body> = walls.collect();
+    let lone = Body::of(ball(2.0, DVec3::ZERO), diffuse(0.5)).at(-5.0, v(0.0, 0.0, -5.0));
+    let scene = Stage::of(walls.into_iter().chain([lone.moving(dice.velocity(0.3))])).scene();
+    let crowd = scene.world.crowd(Event::ORIGIN);
+    let mut met = 0;
+    for _ in 0..100 {
+        let n = dice.direction();
+        let toward = |dice: &mut Dice| SightRay {
+            event: Event::new(0.0, dice.in_cube()),
+            k: FourVector::new(1.0, (n + 0.3 * dice.in_cube()).normalize()),
+        };
+        let rays: Vec<SightRay> = (0..16).map(|_| toward(&mut dice)).collect();
+        same_together(&scene, &rays, 20.0, Some(crowd.as_ref().unwrap()));
+        let all = scene.world.nearest_many(&rays, None);
+        met += all.into_iter().flatten().filter(|hit| hit.placed.bounds().is_some()).count();
+    }
+    assert!(met > 20, "{met}");
 }
 
 /// What is met first, whether anything is met, and how many are met at all.

@@ -131,7 +131,7 @@ fn weighed([x, y, z]: &[Each<f64>; 3], by: [f64; 3]) -> Each<f64> {
 }
 
 #[inline(always)]
-fn plus(of: &Each<f64>, moved: f64) -> Each<f64> {
+pub(crate) fn plus(of: &Each<f64>, moved: f64) -> Each<f64> {
     each(|i| of[i] + moved)
 }
 

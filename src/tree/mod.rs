@@ -13,7 +13,7 @@ mod space;
 mod wide;
 
 use glam::Vec3;
-pub(crate) use lines::{Each, each, greatest, least, some_of};
+pub(crate) use lines::{Each, each, greatest, least, plus, some_of};
 pub use lines::{Lines, MANY};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;

@@ -201,8 +201,8 @@ impl World {
         crowd: Option<&Crowd>,
     ) -> [Option<Hit<'_>>; MANY] {
         let mut nearest = [None; MANY];
-        let mut limits = [f64::INFINITY; MANY];
         let rays = Rays::of(rays.into_iter().map(|ray| (ray, None, f64::INFINITY)));
+        let mut limits = rays.s_max;
         self.ask_many(&rays, crowd, &mut limits, |rest, limits| {
             let mut within = each(|i| limits[i].next_up());
             for (i, found) in rest.nearest_many(&rays.within(rest), &mut within).into_iter().enumerate() {
@@ -245,7 +245,9 @@ impl World {
             return;
         };
         crowd.meeting(rays, |number, first| {
-            let concerned = (0..MANY).fold(0, |bits, i| bits | u32::from(first[i] <= limits[i]) << i);
+            // (What has met nothing goes on without end, and so far is a box that it does not enter.)
+            let concerns = |i: usize| first[i] < f64::INFINITY && first[i] <= limits[i];
+            let concerned = (0..MANY).fold(0, |bits, i| bits | u32::from(concerns(i)) << i);
             if concerned != 0 {
                 some_of(concerned, limits, |limits| visit(&self.frames[number as usize], limits));
             }

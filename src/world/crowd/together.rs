@@ -16,40 +16,40 @@ use crate::simd::{Lanes, Task, with_best};
 use crate::tree::{Each, MANY, each, greatest, least};
 use smallvec::SmallVec;
 
-/// A rest frame's number, and where each of some rays may meet its box first: infinite if it cannot.
-struct Met {
+/// A rest frame's number, and where each of some rays may enter its box first: infinite if it cannot.
+struct Entered {
     number: u32,
     first: Each<f32>,
 }
 
 impl Crowd {
     /// Calls `visit` with every rest frame that any of some rays may meet before its limit of s, and at which s each may meet it first
-    /// (infinite if it cannot); those that may be met first before others.
+    /// (infinite if it cannot); roughly those that may be met first before others.
     pub(in crate::world) fn meeting(&self, rays: &Rays<'_>, mut visit: impl FnMut(u32, &Each<f64>)) {
         if rays.count() == 0 {
             return;
         }
-        let all = each(|i| if i < rays.count() { 0.0 } else { f64::INFINITY });
-        self.endless.iter().for_each(|number| visit(*number, &all));
+        let anywhere = each(|i| if i < rays.count() { 0.0 } else { f64::INFINITY });
+        self.endless.iter().for_each(|number| visit(*number, &anywhere));
         let Some(root) = self.root else { return };
         let Some((beside, together)) = with_best(Beginning { rays, units: &self.units }) else {
-            return self.everybody().for_each(|number| visit(number, &all));
+            return self.everybody().for_each(|number| visit(number, &anywhere));
         };
         // (A tree over one alone is a leaf without a box.)
         if root & LEAF != 0 {
-            return visit(root & !LEAF, &all);
+            return visit(root & !LEAF, &anywhere);
         }
-        let met = self.met(root, &beside, &together);
+        let all = self.entered(root, &beside, &together);
         let mut order: SmallVec<[(f32, u32, u32); MANY]> = SmallVec::new();
-        order.extend((0..).zip(&met).map(|(place, met)| (least(&met.first), met.number, place)));
+        order.extend((0..).zip(&all).map(|(place, one)| (least(&one.first), one.number, place)));
         order.sort_unstable_by(|(a, i, _), (b, j, _)| a.total_cmp(b).then(i.cmp(j)));
         for (_, number, place) in order {
-            let first = &met[place as usize].first;
+            let first = &all[place as usize].first;
             visit(number, &each(|i| f64::from(first[i]) * beside.per_length[i]));
         }
     }
 
-    fn met(&self, root: u32, beside: &Beside, together: &Asked) -> SmallVec<[Met; 8]> {
+    fn entered(&self, root: u32, beside: &Beside, together: &Asked) -> SmallVec<[Entered; 8]> {
         let mut all = SmallVec::new();
         let mut open: SmallVec<[u32; 64]> = SmallVec::from_slice(&[root]);
         while let Some(at) = open.pop() {
@@ -65,7 +65,7 @@ impl Crowd {
                 }
                 let first = with_best(Passing { rays: beside, by: &node.resting(lane) });
                 if least(&first) < f32::INFINITY {
-                    all.push(Met { number: child & !LEAF, first });
+                    all.push(Entered { number: child & !LEAF, first });
                 }
             }
         }
@@ -105,9 +105,14 @@ impl Task for Beginning<'_> {
         let own = largest(&start, &moment);
         let numbers = largest(&[*x, *y, *z], t);
         let exact: Each<f64> = each(|i| moving::ROUNDING * numbers[i] * scale);
-        let is_near: Each<bool> = each(|i| own[i] < FARTHEST && exact[i] < 1.0);
-        let goes: Each<bool> = each(|i| length[i] > 0.0 && length[i] < f64::INFINITY);
-        if is_near.contains(&false) || goes.contains(&false) {
+        let sum: Each<f64> = each(|i| start[0][i] + start[1][i] + start[2][i] + k[0][i] + k[1][i] + k[2][i]);
+        // (All are looked at, without a branch for each.)
+        let is_number: Each<bool> = each(|i| sum[i].is_finite());
+        let is_near: Each<bool> = each(|i| own[i] < FARTHEST);
+        let is_exact: Each<bool> = each(|i| exact[i] < 1.0);
+        let goes: Each<bool> = each(|i| length[i] > 0.0);
+        let ends: Each<bool> = each(|i| length[i] < f64::INFINITY);
+        if !(0..MANY).fold(true, |all, i| all & is_number[i] & is_near[i] & is_exact[i] & goes[i] & ends[i]) {
             return None;
         }
         let step = |k: &Each<f64>| -> Each<f32> { each(|i| (k[i] / k_t[i]) as f32) };
@@ -119,20 +124,23 @@ impl Task for Beginning<'_> {
             s_max: each(|i| (s_max[i] * length[i] * 1.000_001).min(f64::from(f32::MAX)) as f32),
             per_length: each(|i| 0.999_999 / length[i]),
         };
-        let range = |[x, y, z]: &[Each<f32>; 3]| {
-            [[least(x), least(y), least(z)], [greatest(x), greatest(y), greatest(z)]]
-        };
         let together = Asked {
             start: range(&beside.start),
             moment: [least(&beside.moment), greatest(&beside.moment)],
             step: range(&beside.step),
             pad: greatest(&beside.pad),
             s_max: greatest(&beside.s_max),
-            length: length[0],
+            length: 1.0, // Not asked: each has its own.
             alone: false,
         };
         Some((beside, together))
     }
+}
+
+/// The least and the greatest, by axis.
+#[inline(always)]
+fn range([x, y, z]: &[Each<f32>; 3]) -> [[f32; 3]; 2] {
+    [[least(x), least(y), least(z)], [greatest(x), greatest(y), greatest(z)]]
 }
 
 #[inline(always)]
