@@ -127,14 +127,15 @@ mod tests {
             let beta = [0.0, 0.3, 0.96, 0.97, 0.999_999][number / MANY % 5];
             let velocity = Velocity::from_beta(spread(3 * number).normalize() * beta).unwrap();
             let origin = Event::new(spread(5 * number).x, spread(7 * number));
+            let origin = if number % 2 == 0 { origin } else { Event::ORIGIN };
             let rest = RestFrame::new(Poincare::to_moving(velocity, origin), Vec::new());
             let other = RestFrame::new(Poincare::to_moving(velocity, Event::ORIGIN), Vec::new());
             let count = 1 + number % MANY;
             let rays: Vec<SightRay> = (0..count)
                 .map(|i| {
                     let event = Event::new(spread(11 * (number + i)).y, 9.0 * spread(13 * (number + i)));
-                    // One at the frame's origin, where zeros have signs.
-                    let event = if i == 3 { origin } else { event };
+                    // One at the lab's origin, where zeros have signs.
+                    let event = if i == 3 { Event::new(-0.0, -DVec3::ZERO) } else { event };
                     SightRay { event, k: FourVector::new(1.0, spread(17 * (number + i)).normalize()) }
                 })
                 .collect();
