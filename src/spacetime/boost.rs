@@ -52,6 +52,7 @@ impl<To: Frame, From: Frame> Boost<To, From> {
         self.gamma > FAST
     }
 
+    // (Rays that go together are moved by the same sums, coordinate by coordinate, in `world/rays.rs`.)
     #[inline]
     fn apply(self, t: f64, x: DVec3) -> (f64, DVec3) {
         let along = self.u.dot(x);
